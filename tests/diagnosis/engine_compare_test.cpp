@@ -140,19 +140,33 @@ TEST_F(Compared, ALargerLikelihoodWithoutASmallerErrorIsNotAccepted) {
   EXPECT_FALSE(is_accepted());
 }
 
-TEST_F(Compared, ASecondEffectMustReduceTheErrorMoreThanAFirstEffect) {
+/// A term describes an effect with an error of a few percent. A second effect of this size could be the
+/// description of this error.
+TEST_F(Compared, ASecondEffectMustChangeAnOutputByNineHundredthsOfTheChangeByTheFirst) {
   for (double& block : fitted.deviance) block -= 4;
-  fitted.error[kTrolleyPosition] = 0.98;
-  EXPECT_TRUE(is_accepted());
   Fitted before = base;
   other.drive = true;
   other.axis = "trolley";
   before.effects = {{&other, {}}};
-  before.error[kTrolleyPosition] = 0.3;  // a further cause must reduce this error by a fifth
   fitted.effects.push_back({&other, {}});
-  fitted.error[kTrolleyPosition] = 0.25;
+  fitted.change.assign(2, {});
+  fitted.change[0][kTrolleyPosition] = 0.008;
+  fitted.change[1][kTrolleyPosition] = 0.1;
   EXPECT_FALSE(accepted(fitted, before, kCandidates));
-  fitted.error[kTrolleyPosition] = 0.23;
+  fitted.change[0][kTrolleyPosition] = 0.01;
+  EXPECT_TRUE(accepted(fitted, before, kCandidates));
+  fitted.error[kTrolleyPosition] = 1.001;
+  EXPECT_FALSE(accepted(fitted, before, kCandidates)) << "the error must not increase";
+}
+
+TEST_F(Compared, ASecondEffectOnAnotherOutputMayBeSmall) {
+  for (double& block : fitted.deviance) block -= 4;
+  Fitted before = base;
+  before.effects = {{&other, {}}};
+  fitted.effects.push_back({&other, {}});
+  fitted.change.assign(2, {});
+  fitted.change[0][kTrolleyPosition] = 0.001;
+  fitted.change[1][kSlewAngle] = 0.1;
   EXPECT_TRUE(accepted(fitted, before, kCandidates));
 }
 

@@ -6,6 +6,7 @@
 #include "data_of_truth.hpp"
 #include "verdict/judgement.hpp"
 #include "verdict/losing_encoders.hpp"
+#include "verdict/sentence.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -25,12 +25,11 @@ inline constexpr Rule kSignificant{"significant", 0.01, "1",
 inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
                                   "minimum reduction of the error of a column by a first effect",
                                   "read off examples"};
-inline constexpr Rule kLeastBeside{"least_share_beside", 0.2, "1",
-                                   "minimum reduction of the remaining error by a further effect",
-                                   "read off examples"};
-inline constexpr Rule kLeastKept{
-    "least_share_kept", 0.1, "1",
-    "the same for an effect of an accepted hypothesis; below it, the effect is removed", "read off examples"};
+inline constexpr Rule kLeastBeside{
+    "least_change_beside", 0.09, "1",
+    "minimum change of an output by one effect / largest change of this output by another effect of the same "
+    "hypothesis",
+    "as indistinct, whose square root it is: the form of a term matches an effect to this share"};
 
 // Choice among hypotheses with the same number of effects (verdict/judgement.cpp).
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
@@ -48,11 +47,13 @@ inline constexpr Rule kHeldOutWin{
     "held_out_win", 0.95, "1", "minimum share of held-out resamples in which the extended model is likelier",
     "level of the test"};
 inline constexpr Rule kGainLevel{"gain_level", 0.95, "1",
-                                 "level of the interval of the held-out gain, whose lower end must exceed 0",
+                                 "level of the interval of the held-out gain, whose upper end must exceed 0",
                                  "level of the test"};
-inline constexpr Rule kWorthwhile{"worthwhile", 0.03, "1",
-                                  "minimum reduction of the held-out error of a column by the extended model",
-                                  "read off examples"};
+inline constexpr Rule kWorthwhile{
+    "worthwhile", 0.03, "1",
+    "minimum reduction of the training error by an extension that the held-out runs "
+    "do not confirm, to be evidence of an error",
+    "read off examples"};
 inline constexpr Rule kStandsStill{"stands_still", 0.1, "1",
                                    "simulated motion / measured motion below which the model stands still",
                                    "definition"};
@@ -102,7 +103,6 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kSignificant,
                                  kLeastAlone,
                                  kLeastBeside,
-                                 kLeastKept,
                                  kClearWin,
                                  kRunnerUp,
                                  kIndistinct,

@@ -118,7 +118,9 @@ std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t s
   std::ostringstream name;
   name.precision(3);
   name << kOutputNames[pieces.output] << ": time, " << found.hz << " Hz";
-  return Unexplained{name.str(), GoesWith::frequency, pieces.output, found.gain, found.gain / loss};
+  Unexplained line{name.str(), GoesWith::frequency, pieces.output, found.gain, found.gain / loss};
+  line.hz = found.hz;
+  return line;
 }
 
 }  // namespace crane::diagnosis

@@ -19,6 +19,7 @@ struct Unexplained {
   /// Of a pattern of a drive over its variable: rms acceleration of the drive that it stands for, m/s2 or
   /// rad/s2. Infinite for other patterns.
   double acceleration = std::numeric_limits<double>::infinity();
+  double hz = 0;  ///< of a line; 0 for other patterns
 };
 
 /// Patterns with a positive cross-validated gain, strongest first.

@@ -163,22 +163,32 @@ bool insignificant(double chance, std::size_t candidates) {
 
 namespace {
 
-/// @param least reduction of the error
-bool significant(const Fitted& fitted, const Fitted& before, std::size_t candidates, double least) {
-  return share_of_error(fitted, before) > least &&
-         !insignificant(block_test_p_value(fitted.deviance, before.deviance), candidates) &&
-         !insignificant(likelihood_ratio_p_value(fitted, before), candidates);
+/// True when each effect that `before` lacks changes some output by kLeastBeside of the largest change by
+/// another effect.
+bool distinct(const Fitted& fitted, const Fitted& before) {
+  const auto is_distinct = [&](std::size_t i) {
+    for (std::size_t output = 0; output < kOutputs; ++output) {
+      double others = 0;
+      for (std::size_t j = 0; j < fitted.change.size(); ++j)
+        if (j != i) others = std::max(others, fitted.change[j][output]);
+      const double own = fitted.change[i][output];
+      if (own > 0 && own >= rules::kLeastBeside * others) return true;
+    }
+    return false;
+  };
+  if (fitted.effects.size() == 1) return true;
+  for (std::size_t i = 0; i < fitted.effects.size(); ++i)
+    if (!has(before.effects, fitted.effects[i].candidate) && !is_distinct(i)) return false;
+  return true;
 }
 
 }  // namespace
 
 bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates) {
-  return significant(fitted, before, candidates,
-                     before.effects.empty() ? rules::kLeastAlone : rules::kLeastBeside);
-}
-
-bool kept(const Fitted& fitted, const Fitted& part, std::size_t candidates) {
-  return significant(fitted, part, candidates, part.effects.empty() ? rules::kLeastAlone : rules::kLeastKept);
+  const double least = before.effects.empty() ? rules::kLeastAlone.value : 0;
+  return share_of_error(fitted, before) > least && distinct(fitted, before) &&
+         !insignificant(block_test_p_value(fitted.deviance, before.deviance), candidates) &&
+         !insignificant(likelihood_ratio_p_value(fitted, before), candidates);
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {

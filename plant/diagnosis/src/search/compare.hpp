@@ -30,10 +30,10 @@ namespace crane::diagnosis {
 [[nodiscard]] double share_of_error_in_windows(const Fitted& fitted, const Fitted& before);
 
 /// True when the gain of likelihood is significant for the best of `candidates` (Bonferroni), and the error
-/// decreases by kLeastAlone (first effect) or kLeastBeside (further effect).
+/// decreases: by kLeastAlone for a first effect. A further effect changes some output by kLeastBeside of the
+/// change by the other effects: the form of a term never matches an effect exactly, and a smaller change
+/// could be the fit of this mismatch.
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);
-/// The same with kLeastKept, for an effect of an accepted hypothesis that `part` lacks.
-[[nodiscard]] bool kept(const Fitted& fitted, const Fitted& part, std::size_t candidates);
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 

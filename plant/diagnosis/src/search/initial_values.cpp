@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "force/force_lines.hpp"
 #include "search/parts.hpp"
 
 namespace crane::diagnosis {
@@ -20,15 +22,43 @@ Effects InitialValues::of(const Fitted& given, const Score& score) {
   const Candidate* candidate = &study_.candidates()[score.candidate];
   const auto compared = best_ringing_.find(candidate);
   std::vector<std::vector<double>> values = score.starts;
-  if (compared != best_ringing_.end()) values = {compared->second};
+  if (compared != best_ringing_.end()) {
+    std::erase_if(values, [&](const auto& known) {
+      return std::ranges::find(compared->second.all, known) != compared->second.all.end();
+    });
+    values.push_back(compared->second.best);
+  }
   std::vector<Effects> starts;
   for (const std::vector<double>& of_start : values) {
     starts.push_back(given.effects);
     starts.back().push_back({candidate, of_start});
   }
   const Effects best = best_of(starts, given);
-  if (!candidate->ringing_starts.empty()) best_ringing_[candidate] = best.back().values;
+  if (candidate->ringing_starts_at) {
+    Ringing& ringing = best_ringing_[candidate];
+    ringing.best = best.back().values;
+    ringing.all.insert(ringing.all.end(), values.begin(), values.end());
+  }
   return best;
+}
+
+std::vector<const Candidate*> InitialValues::add_of_lines(const Fitted& given, std::uint64_t seed,
+                                                          ScoreTable& scores) const {
+  std::vector<double> lines_hz;
+  for (std::size_t output = 0; output < study_.load().outputs().size(); ++output)
+    if (const auto line = find_force_line(pieces_of(study_.load(), given.train.load, output), seed))
+      lines_hz.push_back(line->hz);
+  std::vector<const Candidate*> ringing;
+  for (Score& score : scores.best) {
+    const Candidate& candidate = study_.candidates()[score.candidate];
+    if (!candidate.ringing_starts_at) continue;
+    const std::size_t known = score.starts.size();
+    for (const double hz : lines_hz)
+      for (std::vector<double>& values : candidate.ringing_starts_at(hz))
+        if (candidate.permits(values)) score.starts.push_back(std::move(values));
+    if (score.starts.size() > known) ringing.push_back(&candidate);
+  }
+  return ringing;
 }
 
 Effects InitialValues::with_new_wave(const Effects& effects, const Fitted& near) const {

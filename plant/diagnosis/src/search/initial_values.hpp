@@ -1,5 +1,6 @@
 #pragma once
 /// Initial values from which a hypothesis is fitted.
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -17,16 +18,28 @@ class InitialValues {
   /// The effects of `given` and the candidate of `score` with its best initial values.
   [[nodiscard]] Effects of(const Fitted& given, const Score& score);
 
+  /// Adds initial values to the scores of the candidates that can oscillate at the lines that `given` leaves
+  /// in the swing. @param seed of the test for lines @return these candidates; none without a significant
+  /// line
+  [[nodiscard]] std::vector<const Candidate*> add_of_lines(const Fitted& given, std::uint64_t seed,
+                                                           ScoreTable& scores) const;
+
   /// The effects with new initial values of each force that depends on the position of an axis whose sensor
   /// another effect changes: this effect changes the positions at which the force acts.
   /// @param near fit of some of the effects
   [[nodiscard]] Effects with_new_wave(const Effects& effects, const Fitted& near) const;
 
  private:
+  /// Compared initial values of a ringing cause.
+  struct Ringing {
+    std::vector<double> best;
+    std::vector<std::vector<double>> all;
+  };
+
   [[nodiscard]] Effects best_of(const std::vector<Effects>& starts, const Fitted& near) const;
 
   Study& study_;
-  std::map<const Candidate*, std::vector<double>> best_ringing_;
+  std::map<const Candidate*, Ringing> best_ringing_;
 };
 
 }  // namespace crane::diagnosis

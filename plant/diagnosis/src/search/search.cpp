@@ -171,18 +171,25 @@ class Search {
     return 0.2 + 0.6 * level / static_cast<double>(request_.most_effects);
   }
 
-  /// Fits the strongest candidates, and those in `always`, in addition to the effects of `given`.
-  /// @return p value of the largest score
-  double extend(const Fitted& given, std::size_t count, const std::vector<const Candidate*>& always = {}) {
+  /// Fits the strongest candidates, and those in `always`, in addition to the effects of `given`. If a
+  /// hypothesis leaves a line in the swing, a cause that adds a natural frequency is fitted as well: the
+  /// noise model describes the line as a disturbance, and the score test hardly sees it.
+  /// @return p value of the largest score; the level of a line, if the hypothesis leaves one
+  double extend(const Fitted& given, std::size_t count, std::vector<const Candidate*> always = {}) {
     const Fitted there = given;  // `all` grows
     study_.whiten_training(there.nuisance);
-    const ScoreTable scores = study_.score(there.effects, there.train, request_.seed + there.effects.size());
+    ScoreTable scores = study_.score(there.effects, there.train, request_.seed + there.effects.size());
+    const std::vector<const Candidate*> ringing = initial_values_.add_of_lines(there, request_.seed, scores);
+    always.insert(always.end(), ringing.begin(), ringing.end());
     if (there.effects.empty()) {
       found_.detection_p_value = scores.p_value;
       found_.excitation = scores.excitation;
       for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
     }
-    if (!there.effects.empty() && scores.p_value > rules::kSignificant) return scores.p_value;
+    if (!there.effects.empty() && scores.p_value > rules::kSignificant) {
+      if (ringing.empty()) return scores.p_value;
+      count = 0;
+    }
     std::vector<Score> left, wanted;
     for (const Score& score : scores.best) {
       const Candidate* candidate = &study_.candidates()[score.candidate];
@@ -195,7 +202,7 @@ class Search {
         request_.progress(0.1, "fit of " + study_.candidates()[score.candidate].label());
       tried_.push_back(study_.first_fit(initial_values_.with_new_wave(start, there), there));
     }
-    return scores.p_value;
+    return ringing.empty() ? scores.p_value : rules::kSignificant.value;
   }
 
   void try_pairs(const std::vector<Fitted>& singles) {
@@ -269,7 +276,7 @@ class Search {
                                         : study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
     }
     for (const Fitted& one : fewer)
-      if (!kept(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
+      if (!accepted(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
         dropped = &one;
     if (dropped == nullptr) return false;
     found_.best = *dropped;

@@ -79,6 +79,8 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
   for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
   fitted.penalty = schwarz * sum(fitted.left_out);
   fitted.error = errors_of(fitted.train);
+  fitted.change.clear();
+  for (std::size_t i = 0; i < fitted.effects.size(); ++i) fitted.change.push_back(change_by(fitted, i));
   if (whole_runs_.empty()) return;
   const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
   fitted.whole_error = mean_errors({{&whole_runs_, &whole}});
@@ -86,6 +88,25 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
 
 std::array<double, kOutputs> Study::errors_of(const Evaluation& at) const {
   return mean_errors({{&train_.drive, &at.drive}, {&train_.load, &at.load}});
+}
+
+std::array<double, kOutputs> Study::change_by(const Fitted& fitted, std::size_t effect) const {
+  Effects others = fitted.effects;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(effect));
+  const Replays without = replays_of(train_.runs, with(others));
+  std::array<double, kOutputs> change{};
+  for (const auto& [problem, fits] :
+       {std::pair{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}}) {
+    if (problem->empty()) continue;
+    const std::vector<double> squares = problem->squares_changed(without, *fits);
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      double rows = 0;
+      for (const Window& window : problem->windows())
+        rows += static_cast<double>(problem->measured_rows(window, i));
+      change[problem->outputs()[i]] = std::sqrt(squares[i] / rows);
+    }
+  }
+  return change;
 }
 
 Blocks Study::held_out_deviance(const Fitted& fitted) {

@@ -65,6 +65,13 @@ class LoadBuilder {
                  free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.001)},
                 slings);
     two_cables.ringing_starts = slings_of_lines(most_raised);
+    two_cables.ringing_starts_at = [rig = rig_, most_raised](double line_hz) {
+      const double own_hz =
+          std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]) / (2 * std::numbers::pi);
+      std::vector<std::vector<double>> at_line;
+      if (line_hz > own_hz) add_slings(rig, own_hz, line_hz, most_raised, at_line);
+      return at_line;
+    };
     all_.add(std::move(two_cables), Changes::load);
   }
 
@@ -72,20 +79,24 @@ class LoadBuilder {
   /// frequency of a wide swing is lower than that of a small swing, which `wide` corrects.
   [[nodiscard]] std::vector<std::vector<double>> slings_of_lines(double most_raised) const {
     constexpr std::size_t kLines = 3;
-    const double measured_m = rig_.start.position[plant::kHoist];
     const std::vector<double> lines = swing_lines(runs_, kLines);
     std::vector<std::vector<double>> slings;
     for (std::size_t i = 1; i < lines.size(); ++i)
       for (const double wide : {1.0, 1.05, 1.1})
-        for (const double share : {0.4, 0.7, 0.95})
-          for (const TwoCables& cables :
-               cables_with(std::min(lines[0], lines[i]), wide * std::max(lines[0], lines[i]), share,
-                           rig_.plant.gravity_mps2)) {
-            const double raised = measured_m - cables.upper_m;
-            if (raised >= 0 && raised <= most_raised)
-              slings.push_back({cables.lower_share, cables.lower_m, raised});
-          }
+        add_slings(rig_, std::min(lines[0], lines[i]), wide * std::max(lines[0], lines[i]), most_raised,
+                   slings);
     return slings;
+  }
+
+  /// Appends two cables with these natural frequencies and the measured length.
+  static void add_slings(const configuration::Rig& rig, double slow_hz, double fast_hz, double most_raised,
+                         std::vector<std::vector<double>>& slings) {
+    for (const double share : {0.4, 0.7, 0.95})
+      for (const TwoCables& cables : cables_with(slow_hz, fast_hz, share, rig.plant.gravity_mps2)) {
+        const double raised = rig.start.position[plant::kHoist] - cables.upper_m;
+        if (raised >= 0 && raised <= most_raised)
+          slings.push_back({cables.lower_share, cables.lower_m, raised});
+      }
   }
 
   void add_pivot_friction() {

@@ -58,6 +58,9 @@ struct Fitted {
   std::array<double, kOutputs> error{};
   /// The same over whole runs, for swings only: a drive integrates any error of friction into its position.
   std::array<double, kOutputs> whole_error{};
+  /// Rms change of the simulation in windows by each effect beside the others, from the same starts, m or
+  /// rad.
+  std::vector<std::array<double, kOutputs>> change;
   std::vector<double> std_dev;  ///< of all values in the order of `effects`; block-robust
   Eigen::MatrixXd covariance;   ///< of all values, before resampling
   Eigen::VectorXd by_noise;     ///< std_dev for the learnt noise and disturbance
@@ -235,7 +238,9 @@ class Study {
   void whiten_test(const Nuisance& nuisance);
   /// Error of the simulation by output: mean over the windows of the rms error of each, m or rad.
   [[nodiscard]] std::array<double, kOutputs> errors_of(const Evaluation& at) const;
-  /// Sets noise and deviance in the present noise.
+  /// Rms change of the outputs in windows when the effect is omitted, from the starts of the fit, m or rad.
+  [[nodiscard]] std::array<double, kOutputs> change_by(const Fitted& fitted, std::size_t effect) const;
+  /// Sets noise, deviance and sizes in the present noise.
   void judge_by_likelihood(Fitted& fitted) const;
 
   double natural_radps_;

@@ -12,12 +12,10 @@
 #include "rules.hpp"
 #include "search/compare.hpp"
 #include "verdict/leftovers.hpp"
+#include "verdict/sentence.hpp"
 
 namespace crane::diagnosis {
 namespace {
-
-/// Share of the stated accuracy within which a calibrated value is at its bound: rounding of the fit.
-constexpr double kAtTheBound = 1e-6;
 
 /// Mean loss over its expectation: 1 if noise and disturbance are as learnt.
 double mean_loss(const Problem& problem, const Fits& fits) {
@@ -245,55 +243,7 @@ class Judgement {
   Diagnosis result_;
 };
 
-/// Calibrated values at the bound of the stated accuracy, as a sentence with a space before it; empty: none.
-std::string at_the_bound(const std::vector<Calibrated>& calibrated) {
-  std::string names;
-  for (const Calibrated& quantity : calibrated)
-    for (const Calibrated::Parameter& p : quantity.parameters) {
-      if (!(p.limit > 0) || std::abs(p.value - p.null) < (1 - kAtTheBound) * p.limit) continue;
-      names += (names.empty() ? "" : ", ") + quantity.name +
-               (quantity.axis.empty() ? "" : " (" + quantity.axis + ")") + " " + p.name;
-    }
-  if (names.empty()) return "";
-  return " At the bound of the stated accuracy: " + names +
-         ". The accuracy of the rig file may be lower than stated, or an effect without a term may be the "
-         "cause.";
-}
-
-std::string verdict_of(const Diagnosis& d) {
-  std::string names, clear, contested, rivals;
-  const auto add = [](std::string& list, const char* separator, const std::string& name) {
-    list += (list.empty() ? "" : separator) + name;
-  };
-  for (const Cause& cause : d.causes) {
-    const std::string name = cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
-    add(names, " and ", name);
-    add(cause.resampling_frequency >= rules::kClearWin ? clear : contested, " and ", name);
-  }
-  for (const std::string& rival : d.ambiguous_with) add(rivals, ", ", rival);
-  switch (d.verdict) {
-    case Verdict::none:
-      return d.within_accuracy.empty() && d.calibrated.empty()
-                 ? "These data show no error of the model."
-                 : "These data show no error of the model beyond the accuracy of the rig file.";
-    case Verdict::named:
-      return "The simulation lacks " + names + ".";
-    case Verdict::parameter:
-      return "A parameter of the rig file has the wrong value: " + names + ".";
-    case Verdict::ambiguous:
-      return (clear.empty() ? "These" : "The simulation lacks " + clear + "; these") +
-             " data do not distinguish " + contested + " from " + rivals + ".";
-    case Verdict::unknown:
-      break;
-  }
-  const auto& from = d.remainder.from;
-  return "The model has an error that no known cause explains" +
-         (from.empty() ? std::string{"."} : " (" + from[0] + ").");
-}
-
 }  // namespace
-
-std::string sentence_of(const Diagnosis& d) { return verdict_of(d) + at_the_bound(d.calibrated); }
 
 void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.verdict = Verdict::unknown;

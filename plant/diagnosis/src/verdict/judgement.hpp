@@ -13,9 +13,6 @@ struct Judged {
                   ///< ambiguous
   std::vector<bool> within_accuracy;  ///< by effect of the best hypothesis; the others are causes
 };
-/// The verdict in words.
-[[nodiscard]] std::string sentence_of(const Diagnosis& diagnosis);
-
 /// Makes the verdict "unknown".
 /// @param why variable on which the remaining residual depends
 void doubt(Diagnosis& diagnosis, const std::string& why);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "verdict/judgement.hpp"
+#include "verdict/sentence.hpp"
 
 namespace crane::diagnosis {
 namespace {
