@@ -6,11 +6,13 @@
 
 #include "crane/diagnosis/replay.hpp"
 #include "crane/simulator/integrator.hpp"
-#include "replay/friction_step.hpp"
+#include "crane/stepper/friction_step.hpp"
 #include "shooting/problem.hpp"
 
 namespace crane::diagnosis {
 namespace {
+
+using stepper::friction_step, stepper::FrictionStep, stepper::implicit_speed;
 
 using plant::State;
 

@@ -5,15 +5,17 @@
 #include <numbers>
 #include <random>
 
+#include "crane/stepper/friction_step.hpp"
 #include "force/force_lines.hpp"
 #include "force/jumps.hpp"
 #include "force/unexplained.hpp"
-#include "replay/friction_step.hpp"
 #include "sealed_case.hpp"
 #include "search/intervals.hpp"
 
 namespace crane::diagnosis {
 namespace {
+
+using stepper::friction_step;
 
 constexpr double kTick_s = 0.01;
 constexpr double kViscous_vspm = 0.4;

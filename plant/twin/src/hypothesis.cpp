@@ -154,7 +154,7 @@ void add_gain(std::vector<Hypothesis>& list, const std::string& axis) {
     }
 }
 
-void add_drive(std::vector<Hypothesis>& list, const Rig& rig, plant::Axis drive, diagnosis::Output encoder) {
+void add_drive(std::vector<Hypothesis>& list, const Rig& rig, plant::Axis drive, stepper::Output encoder) {
   const std::string axis = plant::kCoordinates[drive].axis;
   add_dry_friction(list, rig, axis);
   const CauseKind& viscous = cause_kind("viscous_friction");
@@ -203,14 +203,14 @@ std::string cause_table() {
 std::vector<Hypothesis> hypotheses_for(const Rig& rig) {
   std::vector<Hypothesis> list;
   const bool trolley = rig.drives[plant::kTrolley].present, slew = rig.drives[plant::kSlew].present;
-  if (trolley) add_drive(list, rig, plant::kTrolley, diagnosis::kTrolleyPosition);
-  if (slew) add_drive(list, rig, plant::kSlew, diagnosis::kSlewAngle);
+  if (trolley) add_drive(list, rig, plant::kTrolley, stepper::kTrolleyPosition);
+  if (slew) add_drive(list, rig, plant::kSlew, stepper::kSlewAngle);
   if (!rig.has_load()) return list;
   if (trolley || slew) add_load(list, "payload_mass", "", rig.plant.load_mass_kg);
   add_load(list, "cable_length", "", rig.start.position[plant::kHoist]);
-  add_load(list, "swing_offset", diagnosis::axis_of(diagnosis::kRadialSwing), 1);
+  add_load(list, "swing_offset", stepper::axis_of(stepper::kRadialSwing), 1);
   if (rig.kind == RigKind::tower)
-    add_load(list, "swing_offset", diagnosis::axis_of(diagnosis::kTangentialSwing), 1);
+    add_load(list, "swing_offset", stepper::axis_of(stepper::kTangentialSwing), 1);
   return list;
 }
 

@@ -17,23 +17,23 @@ Predictor::Predictor(const plant::Parameters& parameters, const std::vector<plan
   const double rho = std::exp(-period_s / horizon_s);
   position_gain_ = 1 - rho * rho;
   rate_gain_ = (1 - rho) * (1 - rho) / period_s;
-  steps_ = diagnosis::steps_in(period_s, model_->inner_coordinates() > 0);
+  steps_ = stepper::steps_in(period_s, model_->inner_coordinates() > 0);
   step_s_ = period_s / steps_;
 }
 
 void Predictor::restart(const Known& now, const Mask& simulated) {
   simulated_ = simulated;
   plant::Locks locks;
-  locks.axis = {!simulated[diagnosis::kTrolleyPosition], !simulated[diagnosis::kSlewAngle], true};
-  locks.radial = !simulated[diagnosis::kRadialSwing];
-  locks.tangential = !simulated[diagnosis::kTangentialSwing];
+  locks.axis = {!simulated[stepper::kTrolleyPosition], !simulated[stepper::kSlewAngle], true};
+  locks.radial = !simulated[stepper::kRadialSwing];
+  locks.tangential = !simulated[stepper::kTangentialSwing];
   integrator_.emplace(*model_, simulated, locks, step_s_);
   integrator_->prescribe({given(now), {now.cable_m, now.cable_mps, 0}});
-  for (const auto column : diagnosis::kAllOutputs)
+  for (const auto column : stepper::kAllOutputs)
     if (simulated[column]) position_of(integrator_->state, column) = now.reported[column];
   // State for the measured sensor values, to first order in the sensor errors.
   const PerColumn seen = columns_of(model_->measure(integrator_->state));
-  for (const auto column : diagnosis::kAllOutputs) {
+  for (const auto column : stepper::kAllOutputs) {
     if (!simulated[column]) continue;
     position_of(integrator_->state, column) += now.reported[column] - seen[column];
     rate_of(integrator_->state, column) = now.rate[column];
@@ -42,8 +42,8 @@ void Predictor::restart(const Known& now, const Mask& simulated) {
   predicted_ = now.reported;
 }
 
-std::array<diagnosis::Kinematics, kColumns> Predictor::given(const Known& now) const {
-  std::array<diagnosis::Kinematics, kColumns> kinematics;
+std::array<stepper::Kinematics, kColumns> Predictor::given(const Known& now) const {
+  std::array<stepper::Kinematics, kColumns> kinematics;
   for (std::size_t i = 0; i < kColumns; ++i) kinematics[i].position = now.reported[i];
   return kinematics;
 }
@@ -52,12 +52,12 @@ const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known
   integrator_->new_command(model_->drive_voltage(applied_v));
   const auto still = given(now);
   const auto cable = [&](double share) {
-    return diagnosis::Kinematics{std::lerp(before_.cable_m, now.cable_m, share),
-                                 std::lerp(before_.cable_mps, now.cable_mps, share), 0};
+    return stepper::Kinematics{std::lerp(before_.cable_m, now.cable_m, share),
+                               std::lerp(before_.cable_mps, now.cable_mps, share), 0};
   };
   for (int step = 0; step < steps_; ++step) integrator_->step({still, cable((step + 0.5) / steps_)});
   integrator_->prescribe({still, cable(1)});
-  for (const auto column : diagnosis::kAllOutputs)
+  for (const auto column : stepper::kAllOutputs)
     position_of(integrator_->state, column) +=
         slip_[column] * std::abs(rate_of(integrator_->state, column)) * step_s_ * steps_;
   before_ = now;
@@ -68,7 +68,7 @@ const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known
 }
 
 void Predictor::correct(const PerColumn& reported) {
-  for (const auto column : diagnosis::kAllOutputs) {
+  for (const auto column : stepper::kAllOutputs) {
     if (!simulated_[column]) continue;
     const double error = reported[column] - predicted_[column];
     position_of(integrator_->state, column) += position_gain_ * error;

@@ -8,7 +8,7 @@
 namespace crane::twin {
 namespace {
 
-using diagnosis::kCoordinateOf;
+using stepper::kCoordinateOf;
 
 constexpr double kLargestSwing_rad = 1.4, kShortestCable_m = 0.05;  // range of the equations of motion
 constexpr PerColumn kMoving{0.005, 0.005, 0.02, 0.02};              // speed of a moving axis, m/s, rad/s
@@ -190,9 +190,9 @@ void Twin::accumulate(const Known& now) {
 /// A push of the load changes the residual of the drives only through the force of the load.
 bool Twin::could_be_push(std::size_t column) const {
   bool drives_quiet = true;
-  for (const auto drive : {diagnosis::kTrolleyPosition, diagnosis::kSlewAngle})
+  for (const auto drive : {stepper::kTrolleyPosition, stepper::kSlewAngle})
     drives_quiet = drives_quiet && std::abs(judgement_.residual[drive]) <= kQuietDrive * judge_.band()[drive];
-  return drives_quiet && column >= diagnosis::kRadialSwing;
+  return drives_quiet && column >= stepper::kRadialSwing;
 }
 
 void Twin::watch_steps() {

@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "crane/diagnosis/replay.hpp"
-#include "crane/diagnosis/step_integrator.hpp"
+#include "crane/stepper/step_integrator.hpp"
 
 namespace crane::diagnosis {
+
+using stepper::StepIntegrator, stepper::steps_in;
 
 /// Stochastic approximation of the median of the last few hundred values.
 class RunningMedian {

@@ -12,26 +12,19 @@
 #include "crane/configuration/rig.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/recording/csv.hpp"
+#include "crane/stepper/kinematics.hpp"
 
 namespace crane::diagnosis {
 
-/// Sensor values that the simulation predicts.
-enum Output : std::size_t { kTrolleyPosition = 0, kSlewAngle = 1, kRadialSwing = 2, kTangentialSwing = 3 };
-inline constexpr std::size_t kOutputs = 4;
-/// Coordinate of each output.
-inline constexpr std::array<std::size_t, kOutputs> kCoordinateOf{
-    plant::kTrolley, plant::kSlew, plant::kSwingRadial, plant::kSwingTangential};
+using stepper::axis_of, stepper::kCoordinateOf, stepper::kOutputs, stepper::Output;
+using enum stepper::Output;
+
 /// Canonical column names, in the order of Output.
 inline constexpr auto kOutputNames = [] {
   std::array<const char*, kOutputs> names{};
   for (std::size_t i = 0; i < kOutputs; ++i) names[i] = plant::kCoordinates[kCoordinateOf[i]].column;
   return names;
 }();
-
-/// Axis of the drive, or direction of the swing.
-[[nodiscard]] constexpr const char* axis_of(Output output) {
-  return plant::kCoordinates[kCoordinateOf[output]].axis;
-}
 
 /// Drive voltages from `time_s` until the next command.
 struct TimedCommand {

@@ -4,7 +4,7 @@
 ///   drive  command and measured swing -> positions: fails when drives or friction are wrong
 ///   load   measured motion -> swing: fails when the load or its sensors are wrong
 ///
-/// Fixed leapfrog steps (step_integrator.hpp). Friction acts at the mid-point of a step, implicitly near
+/// Fixed leapfrog steps (plant/stepper). Friction acts at the mid-point of a step, implicitly near
 /// standstill, where tanh(v / v_s) is stiff; a reversal inside a step is located. A delayed or filtered
 /// command changes from step to step.
 #include <memory>

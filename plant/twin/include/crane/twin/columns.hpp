@@ -3,15 +3,15 @@
 #include <array>
 #include <cstddef>
 
-#include "crane/diagnosis/data.hpp"
+#include "crane/stepper/kinematics.hpp"
 
 namespace crane::twin {
 
-inline constexpr std::size_t kColumns = diagnosis::kOutputs;
+inline constexpr std::size_t kColumns = stepper::kOutputs;
 using PerColumn = std::array<double, kColumns>;
 using Mask = std::array<bool, kColumns>;
 [[nodiscard]] constexpr const plant::Coordinate& coordinate_of(std::size_t column) {
-  return plant::kCoordinates.at(diagnosis::kCoordinateOf.at(column));
+  return plant::kCoordinates.at(stepper::kCoordinateOf.at(column));
 }
 
 }  // namespace crane::twin

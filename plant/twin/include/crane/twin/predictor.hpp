@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "crane/diagnosis/step_integrator.hpp"
 #include "crane/plant/model.hpp"
+#include "crane/stepper/step_integrator.hpp"
 #include "crane/twin/columns.hpp"
 
 namespace crane::twin {
@@ -37,10 +37,10 @@ class Predictor {
   [[nodiscard]] const PerColumn& predicted() const { return predicted_; }
 
  private:
-  [[nodiscard]] std::array<diagnosis::Kinematics, kColumns> given(const Known& now) const;
+  [[nodiscard]] std::array<stepper::Kinematics, kColumns> given(const Known& now) const;
 
   std::unique_ptr<plant::Model> model_;
-  std::optional<diagnosis::StepIntegrator> integrator_;
+  std::optional<stepper::StepIntegrator> integrator_;
   PerColumn slip_;
   Mask simulated_{};
   Known before_;

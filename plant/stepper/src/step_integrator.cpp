@@ -1,11 +1,11 @@
-#include "crane/diagnosis/step_integrator.hpp"
+#include "crane/stepper/step_integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "replay/friction_step.hpp"
+#include "crane/stepper/friction_step.hpp"
 
-namespace crane::diagnosis {
+namespace crane::stepper {
 
 using plant::State;
 
@@ -135,4 +135,4 @@ plant::PerAxis StepIntegrator::move_drives(const State& middle, const plant::Inn
   return friction;
 }
 
-}  // namespace crane::diagnosis
+}  // namespace crane::stepper

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace crane::diagnosis {
+namespace crane::stepper {
 
 /// m/s or rad/s: below this speed, the steep friction at standstill is integrated implicitly.
 inline constexpr double kImplicitSpeed = 0.004;
@@ -75,4 +75,4 @@ FrictionStep friction_step(double v, double a, double g, double h, Friction&& fr
   return {end, 0.5 * h * (v + end), mean_friction};
 }
 
-}  // namespace crane::diagnosis
+}  // namespace crane::stepper

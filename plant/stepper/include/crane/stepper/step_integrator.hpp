@@ -3,10 +3,10 @@
 /// the others prescribed as measured.
 #include <array>
 
-#include "crane/diagnosis/kinematics.hpp"
 #include "crane/plant/model.hpp"
+#include "crane/stepper/kinematics.hpp"
 
-namespace crane::diagnosis {
+namespace crane::stepper {
 
 /// Number of steps in a period. A step is at most 5 ms long, or 2.5 ms with inner coordinates, which may
 /// oscillate at 25 Hz.
@@ -53,4 +53,4 @@ class StepIntegrator {
   bool gains_known_ = false;
 };
 
-}  // namespace crane::diagnosis
+}  // namespace crane::stepper
