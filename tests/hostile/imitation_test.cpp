@@ -48,6 +48,40 @@ TEST_F(DiscoveryAttack, ThatSilencesAnOperatorDoesNotSilenceItsNextWriter) {
   EXPECT_TRUE(stack_->until([this] { return is(crane_STATE_ESTOP); }, 1s));
 }
 
+/// A HEARTBEAT hides the stop from the planner, which then continues its reference. The supervisor ends the
+/// controlled stop after 8 s at the latest.
+TEST_F(DiscoveryAttack, ThatHidesAStopFromThePlannerDelaysItByAtMostEightSeconds) {
+  constexpr auto kMost = 8500ms;  // STOP_TIMEOUT, ramp and closing time of the brakes
+  auto status = heard("trajectory_planner", topics::supervisor);
+  const auto found = find(status.message, topics::supervisor).value();
+  stack_->session().arm();
+  stack_->session().request({.kind = crane_REQUEST_FOLLOW,
+                             .selected = {true, false, false},
+                             .target = {stack_->session().state()->trolley_position_m, 0, 0},
+                             .sines = {{.amplitude = 0.05, .frequency_hz = 0.3, .phase_rad = 0}},
+                             .duration_s = 60},
+                            "follow");
+  stack_->listen(3s);
+  ASSERT_TRUE(is(crane_STATE_RUN));
+  constexpr std::uint64_t kAhead = 1'000'000'000;
+  send_to("trajectory_planner",
+          heartbeat(prefix_of(status.message), entities_of(status.message, found.data).writer,
+                    sequence_number_of(status.message, found.data) + kAhead));
+  stack_->listen(100ms);
+  stack_->session().request({.kind = crane_REQUEST_STOP}, "stop");
+  const auto begin = std::chrono::steady_clock::now();
+  const auto closed = [this] {
+    const auto& state = stack_->observer().states().back();
+    return state.brake_closed[0] && state.brake_closed[1] && state.applied_v[0] == 0;
+  };
+  EXPECT_TRUE(stack_->until(closed, kMost));
+  std::cout << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin) / 1s
+            << " s from the stop to closed brakes; "
+            << experiments::in_words(stack_->observer().statuses().back()) << '\n';
+  const auto lost = [this] { return stack_->observer().nodes().at("trajectory_planner").lost_ticks; };
+  EXPECT_TRUE(stack_->until([&] { return lost() > 100; }, 5s)) << "the attack has no effect";
+}
+
 TEST_F(DiscoveryAttack, ThatEndsSupervisorAndBridgeForEachOtherMovesNothing) {
   const auto supervisor = prefix_of(heard("plant", topics::command).message);
   const auto plant = prefix_of(heard("supervisor", topics::state).message);
