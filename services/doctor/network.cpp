@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 
+#include "crane/bus/ports.hpp"
 #include "crane/runtime/process.hpp"
 #include "observation/traffic.hpp"
 
@@ -227,14 +228,14 @@ Findings judge_mismatches(const Observed& observed) {
 }
 
 Findings judge_number_of_participants(const std::vector<LocalProcess>& local, std::uint32_t domain) {
-  // number of ports that Fast DDS probes on each host by unicast (libs/bus)
-  constexpr std::ptrdiff_t kMost = 20;
+  constexpr std::ptrdiff_t kMost = bus::most_participants();
   const auto count = std::ranges::count(local, domain, &LocalProcess::domain);
   if (count < kMost) return {};
   return {{Grade::problem, "net", "too_many_participants",
            std::to_string(count) + " programs of cranes run in domain " + std::to_string(domain) +
-               " of this computer; discovery by unicast finds " + std::to_string(kMost),
-           "end the programs that are left over (`pgrep -a crane`), or give each crane its own --domain"}};
+               " of this computer, which has ports for " + std::to_string(kMost),
+           "end the programs that are left over (`pgrep -a crane`), start cranes with --in-process, or give "
+           "them other domains (--domain)"}};
 }
 
 }  // namespace crane::doctor

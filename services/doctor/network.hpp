@@ -46,7 +46,7 @@ struct ExpectedCrane {
 [[nodiscard]] Findings judge_processes_on_bus(const Observed& observed);
 /// Checks for incompatible writers and programs.
 [[nodiscard]] Findings judge_mismatches(const Observed& observed);
-/// Checks the number of participants: unicast discovery probes a limited number of ports of each computer.
+/// Checks the number of participants: a domain has ports for a limited number of them on each computer.
 [[nodiscard]] Findings judge_number_of_participants(const std::vector<LocalProcess>& local,
                                                     std::uint32_t domain);
 

@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kLoop{"crane_plant",     "crane_hardware_bridge", "crane_trajectory_planner",
-                           "crane_tracking",  "crane_anti_swing",      "crane_friction_compensation",
-                           "crane_supervisor"};
+constexpr std::array kLoop{
+    "crane_plant",      "crane_hardware_bridge",       "crane_trajectory_planner", "crane_tracking",
+    "crane_anti_swing", "crane_friction_compensation", "crane_supervisor",         "crane_loop"};
 
 std::vector<std::string> arguments_of(const fs::path& process) {
   std::ifstream file{process / "cmdline", std::ios::binary};

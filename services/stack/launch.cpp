@@ -6,9 +6,25 @@
 #include <set>
 #include <stdexcept>
 
+#include "crane/runtime/loop_process.hpp"
 #include "crane/twin/component.hpp"
 
 namespace crane::stack {
+namespace {
+
+void start(ChildProcesses& children, std::string_view name, std::string_view program,
+           const runtime::BusOptions& bus, const LaunchOptions& options) {
+  auto arguments = runtime::arguments(bus);
+  arguments.insert(arguments.end(), {"--rig", options.rig, "--clock", options.clock, "--priority",
+                                     std::to_string(options.priority)});
+  if (!options.controller.empty()) arguments.insert(arguments.end(), {"--controller", options.controller});
+  if (options.epoch != 0) arguments.insert(arguments.end(), {"--epoch", std::to_string(options.epoch)});
+  arguments.insert(arguments.end(), {"--parent", std::to_string(::getpid())});
+  if (options.verbose) arguments.emplace_back("--verbose");
+  children.start(std::string{name}, std::string{program}, arguments);
+}
+
+}  // namespace
 
 std::map<std::string, std::string> vendors_from(const std::vector<std::string>& entries,
                                                 const std::vector<runtime::ComponentSpec>& specs) {
@@ -37,15 +53,12 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
     auto bus = options.bus;
     if (const auto chosen = options.vendors.find(std::string{spec.name}); chosen != options.vendors.end())
       bus.vendor = chosen->second;
-    auto arguments = runtime::arguments(bus);
-    arguments.insert(arguments.end(), {"--rig", options.rig, "--clock", options.clock, "--priority",
-                                       std::to_string(options.priority)});
-    if (!options.controller.empty()) arguments.insert(arguments.end(), {"--controller", options.controller});
-    if (options.epoch != 0) arguments.insert(arguments.end(), {"--epoch", std::to_string(options.epoch)});
-    arguments.insert(arguments.end(), {"--parent", std::to_string(::getpid())});
-    if (options.verbose) arguments.emplace_back("--verbose");
-    children.start(std::string{spec.name}, std::string{spec.program}, arguments);
+    start(children, spec.name, spec.program, bus, options);
   }
+}
+
+void launch_in_process(ChildProcesses& children, const LaunchOptions& options) {
+  start(children, "loop", runtime::kLoopProgram, options.bus, options);
 }
 
 void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options) {

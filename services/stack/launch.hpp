@@ -30,6 +30,11 @@ struct LaunchOptions {
 void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
             const LaunchOptions& options);
 
+/// Starts one process that hosts all components of the simulated stack, in real time
+/// (crane/runtime/loop_process.hpp). Its name is "loop".
+/// @throws std::runtime_error when the program is missing
+void launch_in_process(ChildProcesses& children, const LaunchOptions& options);
+
 /// Starts the process of the emulated crane when the rig has an emulated board.
 /// @throws std::runtime_error when the program is missing
 void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options);

@@ -239,6 +239,31 @@ TEST_F(Memory, EndpointsSurviveTheirBus) {
   EXPECT_EQ(ticks(reader), Ticks{9});
 }
 
+/// A share is a bus of its own on the same participant.
+TEST_F(Memory, ASharedParticipantDeliversToItsOtherBusWithTheSourceOfEach) {
+  auto first = bus();
+  auto second = first.share(crane_SOURCE_SUPERVISOR, 4);
+  auto statuses_in = first.subscriber(topics::supervisor);
+  auto states_in = second.subscriber(topics::state);
+  auto states_out = first.publisher(topics::state);
+  auto statuses_out = second.publisher(topics::supervisor);
+
+  EXPECT_TRUE(states_out.publish(state(1)));
+  EXPECT_TRUE(second.wait(0ns));
+  EXPECT_FALSE(first.wait(0ns)) << "the sample is for the other bus";
+  EXPECT_TRUE(statuses_out.publish({}));
+  SampleInfo of_state, of_status;
+  const auto seen_state = states_in.take(&of_state);
+  const auto seen_status = statuses_in.take(&of_status);
+  ASSERT_TRUE(seen_state && seen_status);
+  EXPECT_EQ(seen_state->header.source, crane_SOURCE_PLANT);
+  EXPECT_EQ(seen_state->header.epoch, 3U);
+  EXPECT_EQ(seen_status->header.source, crane_SOURCE_SUPERVISOR);
+  EXPECT_EQ(seen_status->header.epoch, 4U);
+  EXPECT_EQ(of_state.participant, of_status.participant);
+  EXPECT_NE(of_state.writer, of_status.writer);
+}
+
 TEST_F(Memory, RefusesAStringWithoutItsEnd) {
   Bus a = bus();
   auto writer = a.publisher(topics::event);

@@ -83,7 +83,7 @@ TEST(Doctor, NamesTheOptionThatWouldFindTheCrane) {
 }
 
 TEST(Doctor, CountsTheParticipantsThatUnicastFinds) {
-  const std::vector<LocalProcess> few(19, running({})), many(20, running({}));
+  const std::vector<LocalProcess> few(119, running({})), many(120, running({}));
   EXPECT_TRUE(judge_number_of_participants(few, 0).empty());
   EXPECT_EQ(judge_number_of_participants(many, 0)[0].code, "too_many_participants");
   EXPECT_TRUE(judge_number_of_participants(many, 1).empty());

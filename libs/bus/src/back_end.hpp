@@ -75,7 +75,7 @@ struct Quality {
 /// Name of a DDS policy. Both vendors use the policy numbers of the DDS standard.
 [[nodiscard]] std::string_view policy_name(int id);
 
-/// One participant of one vendor. Its endpoints keep it alive.
+/// One participant of one vendor. Its endpoints keep it alive. Several buses may share it.
 class BackEnd : public std::enable_shared_from_this<BackEnd> {
  public:
   BackEnd() = default;
@@ -83,14 +83,16 @@ class BackEnd : public std::enable_shared_from_this<BackEnd> {
   BackEnd& operator=(const BackEnd&) = delete;
   virtual ~BackEnd() = default;
   virtual std::unique_ptr<detail::Writer> writer(const topics::Description&, const EndpointOptions&) = 0;
-  virtual std::unique_ptr<detail::Reader> reader(const topics::Description&, const EndpointOptions&) = 0;
+  /// @param doorbell  of the bus that owns the reader
+  virtual std::unique_ptr<detail::Reader> reader(const topics::Description&, const EndpointOptions&,
+                                                 std::shared_ptr<Doorbell> doorbell) = 0;
   virtual std::vector<OtherVersion> other_versions() { return {}; }
 };
 
 /// `options.peers` are IPv4 addresses here. @throws Error
-std::shared_ptr<BackEnd> make_cyclone(const Options&, std::shared_ptr<Doorbell>);
-std::shared_ptr<BackEnd> make_fastdds(const Options&, std::shared_ptr<Doorbell>);
-std::shared_ptr<BackEnd> make_memory(const Options&, std::shared_ptr<Doorbell>);
+std::shared_ptr<BackEnd> make_cyclone(const Options&);
+std::shared_ptr<BackEnd> make_fastdds(const Options&);
+std::shared_ptr<BackEnd> make_memory(const Options&);
 
 /// Checks the options and resolves the host names of the peers. A wrong option gives a message with the
 /// remedy.

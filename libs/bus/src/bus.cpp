@@ -22,16 +22,16 @@ void require_sealable(const topics::Description& topic) {
               " must begin with crane::Header and end with a uint32 for the CRC"};
 }
 
-std::shared_ptr<BackEnd> make_back_end(const Options& options, std::shared_ptr<Doorbell> doorbell) {
+std::shared_ptr<BackEnd> make_back_end(const Options& options) {
   switch (options.vendor) {
     case Vendor::cyclone:
-      return make_cyclone(options, std::move(doorbell));
+      return make_cyclone(options);
     case Vendor::fastdds:
-      return make_fastdds(options, std::move(doorbell));
+      return make_fastdds(options);
     case Vendor::memory:
       break;
   }
-  return make_memory(options, std::move(doorbell));
+  return make_memory(options);
 }
 
 }  // namespace
@@ -56,11 +56,21 @@ Bus::Bus(Options options) : state_{std::make_unique<State>()} {
   for (const auto& topic : topics::kAll)
     require_sealable(topic);  // reported at the start, not at the first sample
   state_->options = checked(std::move(options));
-  state_->back_end = make_back_end(state_->options, state_->doorbell);
+  state_->back_end = make_back_end(state_->options);
 }
+Bus::Bus(std::unique_ptr<State> state) : state_{std::move(state)} {}
 Bus::~Bus() = default;
 Bus::Bus(Bus&&) noexcept = default;
 Bus& Bus::operator=(Bus&&) noexcept = default;
+
+Bus Bus::share(crane_Source source, std::uint32_t epoch) const {
+  auto state = std::make_unique<State>();
+  state->options = state_->options;
+  state->options.source = source;
+  state->options.epoch = epoch;
+  state->back_end = state_->back_end;
+  return Bus{std::move(state)};
+}
 
 bool Bus::wait(std::chrono::nanoseconds timeout) { return state_->doorbell->wait(timeout); }
 void Bus::call_on_arrival(ArrivalHandler on_arrival) { state_->doorbell->call(std::move(on_arrival)); }
@@ -88,7 +98,7 @@ UntypedSubscriber Bus::make_subscriber(const topics::Description& topic, const E
   return UntypedSubscriber{std::make_unique<UntypedSubscriber::State>(
       UntypedSubscriber::State{.topic = topic,
                                .has_texts = CdrCodec::of(*topic.descriptor).has_texts(),
-                               .reader = state_->back_end->reader(topic, endpoint),
+                               .reader = state_->back_end->reader(topic, endpoint, state_->doorbell),
                                .messages_version = state_->options.messages_version})};
 }
 
@@ -110,8 +120,8 @@ struct BareLink::State {
 BareLink::BareLink(const Options& options, const topics::Description& reads,
                    const topics::Description& writes)
     : state_{std::make_unique<State>()} {
-  state_->back_end = make_back_end(checked(options), state_->doorbell);
-  state_->reader = state_->back_end->reader(reads, {});
+  state_->back_end = make_back_end(checked(options));
+  state_->reader = state_->back_end->reader(reads, {}, state_->doorbell);
   state_->writer = state_->back_end->writer(writes, {});
 }
 BareLink::~BareLink() = default;

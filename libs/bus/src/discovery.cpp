@@ -3,6 +3,9 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -25,7 +28,35 @@ bool has_multicast(const std::string& address) {
   return found;
 }
 
+bool is_free(const std::string& address, std::uint32_t port) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (socket < 0) return false;
+  sockaddr_in own{};
+  own.sin_family = AF_INET;
+  own.sin_port = htons(static_cast<std::uint16_t>(port));
+  inet_pton(AF_INET, address.c_str(), &own.sin_addr);
+  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
+  ::close(socket);
+  return bound;
+}
+
 }  // namespace
+
+bool has_free_ports(const Options& options, std::uint32_t number) {
+  const auto port = unicast_port(options.domain, number);
+  return std::ranges::all_of(options.interfaces, [port](const std::string& address) {
+    return is_free(address, port) && is_free(address, port + 1);
+  });
+}
+
+std::string no_free_number(const Options& options) {
+  return "domain " + std::to_string(options.domain) + " has no free participant number on " +
+         options.interfaces.front() + ": a domain has UDP ports for " + std::to_string(kMostParticipants) +
+         " programs per host (" + std::to_string(unicast_port(options.domain, 0)) + " to " +
+         std::to_string(unicast_port(options.domain, kMostParticipants) - 1) +
+         "; `crane up` with its processes takes 8, with --in-process 3); start this crane with --in-process "
+         "or another --domain, or end programs that are left over (`pgrep -a crane`)";
+}
 
 bool discovers_by_unicast(const Options& options) {
   const auto& own = options.interfaces;

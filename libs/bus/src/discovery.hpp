@@ -2,8 +2,11 @@
 /// Discovery of participants. Both vendors must use the same kind of discovery (multicast or unicast).
 /// Therefore one rule selects the kind for both.
 #include <chrono>
+#include <cstdint>
+#include <string>
 
 #include "crane/bus/bus.hpp"
+#include "crane/bus/ports.hpp"
 
 namespace crane::bus {
 
@@ -12,15 +15,24 @@ namespace crane::bus {
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
 
 /// Largest number of participants of one domain on one host with unicast discovery, for both vendors:
-/// discovery contacts the ports of this number of participants. The ports of a domain suffice for 120. The
-/// limit is lower, because eight cranes in one domain lost many ticks (docs/benchmarks.md).
-inline constexpr std::uint32_t kMostParticipants = 31;
+/// discovery contacts the ports of this number of participants. All buses of a process over Cyclone DDS share
+/// one number. A higher number has ports of the next domain.
+inline constexpr std::uint32_t kMostParticipants = most_participants();
+/// Message with cause and remedy when no number is free.
+[[nodiscard]] std::string no_free_number(const Options& options);
+/// @return true when both ports of the participant number are free on all own interfaces. Another process may
+/// take them at the next moment.
+[[nodiscard]] bool has_free_ports(const Options& options, std::uint32_t number);
 
 /// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface
 /// other than loop-back. A lost datagram delays all later samples of its topic until the reader requests the
 /// datagram after the next heartbeat. With the period kNetworkHeartbeat, Cyclone DDS repairs a sample within
 /// its tick.
 [[nodiscard]] bool crosses_network(const Options& options);
-inline constexpr std::chrono::milliseconds kHeartbeat{20}, kNetworkHeartbeat{2};
+inline constexpr std::chrono::milliseconds kNetworkHeartbeat{2};
+/// On the loop-back no datagram is lost unless a receive buffer is full. The writers of discovery of Cyclone
+/// DDS use the same period: while a domain of N participants starts, each of them sends heartbeats to all
+/// others, and with 20 ms these heartbeats fill the receive buffers (docs/fleet.md).
+inline constexpr std::chrono::milliseconds kHeartbeat{100};
 
 }  // namespace crane::bus

@@ -1,5 +1,8 @@
 #include "crane/runtime/in_process.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 #include "crane/runtime/process.hpp"
 
 namespace crane::runtime {
@@ -24,29 +27,64 @@ InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const confi
   for (const auto& spec : specs) add(spec, rig, controller);
 }
 
+InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const configuration::Rig& rig,
+                               const control::Controller& controller, const BusOf& bus_of) {
+  for (const auto& spec : specs) add(spec, rig, controller, bus_of(spec), Clock::realtime);
+}
+
 void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& rig,
                          const control::Controller& controller) {
-  Room room;
-  room.bus = std::make_unique<bus::Bus>(memory_options(network_, std::string{spec.program}, spec.source));
-  room.hosted = std::make_unique<HostedComponent>(*room.bus, spec, rig, controller, Clock::lockstep);
-  rooms_.push_back(std::move(room));
+  add(spec, rig, controller, bus::Bus{memory_options(network_, std::string{spec.program}, spec.source)},
+      Clock::lockstep);
+}
+
+void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& rig,
+                         const control::Controller& controller, bus::Bus bus, Clock clock) {
+  Room& room = rooms_.emplace_back(std::move(bus));
+  if (!network_) room.bus.call_on_arrival([this, &room](std::string_view /*topic*/) { arrived(room); });
+  room.hosted = std::make_unique<HostedComponent>(room.bus, spec, rig, controller, clock,
+                                                  clock == Clock::realtime ? monotonic_ns : nullptr);
+}
+
+/// Runs in the thread that delivers the sample: a thread of the vendor, or the thread of pump().
+void InProcessStack::arrived(Room& room) {
+  room.has_samples = true;
+  {
+    const std::lock_guard lock{mutex_};
+    arrived_ = true;
+  }
+  arrival_.notify_one();
 }
 
 bool InProcessStack::pump() {
-  const auto now_ns = monotonic_ns();
+  const auto begin_ns = monotonic_ns();
   bool anything = false;
   // The first pass polls all components, the next passes only those with new samples. When such a pass
   // processes nothing, one more pass polls all components, because a component may store samples of later
   // ticks or requests that are due.
   for (bool all = true, progress = true; all || progress; all = !all && !progress) {
     progress = false;
+    {
+      const std::lock_guard lock{mutex_};
+      arrived_ = false;
+    }
     for (auto& room : rooms_) {
-      const bool has_samples = room.bus->wait(std::chrono::nanoseconds{0});
-      if (all || has_samples) progress = room.hosted->component().poll(now_ns) || progress;
+      const bool has_samples =
+          network_ ? room.bus.wait(std::chrono::nanoseconds{0}) : room.has_samples.exchange(false);
+      if (!all && !has_samples) continue;
+      const auto now_ns = network_ ? begin_ns : monotonic_ns();
+      progress = room.hosted->component().poll(now_ns) || progress;
     }
     anything = anything || progress;
   }
   return anything;
+}
+
+void InProcessStack::wait(std::int64_t latest_ns) {
+  for (const auto& room : rooms_) latest_ns = std::min(latest_ns, room.hosted->component().wake_at_ns());
+  std::unique_lock lock{mutex_};
+  arrival_.wait_until(lock, std::chrono::steady_clock::time_point{std::chrono::nanoseconds{latest_ns}},
+                      [this] { return arrived_; });
 }
 
 std::string InProcessStack::waiting_for() const {

@@ -1,17 +1,8 @@
 #include "crane/runtime/process.hpp"
 
-#include <sched.h>
-#include <spdlog/async.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-#include <sys/mman.h>
-
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
-#include <filesystem>
-#include <iostream>
 #include <random>
 #include <system_error>
 
@@ -19,8 +10,8 @@
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/memory_limit.hpp"
 #include "crane/runtime/signals.hpp"
-#include "crane/runtime/spin_limit.hpp"
 #include "crane/runtime/turn.hpp"
+#include "host.hpp"
 
 namespace crane::runtime {
 namespace {
@@ -31,36 +22,6 @@ void sleep_until(std::int64_t time_ns) {
   if (error != 0 && error != EINTR)  // a signal may end the sleep early, before a tick is due
     throw std::system_error{error, std::generic_category(), "clock_nanosleep"};
 }
-
-/// Locks the memory and requests real-time scheduling for every thread of this process. The receive threads
-/// of the bus need the same priority as the loop. Logs a warning when the system denies the request.
-/// Real-time priority is requested last: start-up work must not preempt running processes.
-void enter_realtime(Node& node, int priority) {
-  if (priority <= 0) return;
-  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
-    node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(errno),
-                 "grant CAP_IPC_LOCK or raise the memlock limit");
-  end_when_spinning();
-  const sched_param parameters{.sched_priority = priority};
-  for (const auto& thread : std::filesystem::directory_iterator{"/proc/self/task"}) {
-    const auto id = static_cast<pid_t>(std::stol(thread.path().filename().string()));
-    if (::sched_setscheduler(id, SCHED_FIFO, &parameters) == 0 || errno == ESRCH) continue;
-    node.warning("no_realtime_scheduling", std::string{"SCHED_FIFO not permitted: "} + std::strerror(errno),
-                 "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
-    return;
-  }
-}
-
-/// A stopped terminal (Ctrl-S) or a full pipe blocks its writer. Therefore a separate thread writes the log
-/// lines of the loop. When kMostLines lines wait, the oldest is dropped.
-void log_without_waiting() {
-  constexpr std::size_t kMostLines = 256;
-  spdlog::drop_all();
-  spdlog::init_thread_pool(kMostLines, 1);
-  spdlog::set_default_logger(spdlog::create_async_nb<spdlog::sinks::stderr_color_sink_mt>(""));
-}
-
-constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
 
 /// A clock master sleeps until its next tick; samples do not wake it.
 void loop_paced(Component& component) {
@@ -86,12 +47,6 @@ void loop_on_arrival(Component& component, std::int64_t period_ns, Turn& turn) {
     turn.wait(kLongest_ns);
     turn.run();
   }
-}
-
-Clock clock_from(const std::string& name) {
-  if (name == "realtime") return Clock::realtime;
-  if (name == "lockstep") return Clock::lockstep;
-  throw configuration::ConfigurationError({"--clock " + name + ": must be realtime or lockstep"});
 }
 
 int run(const ComponentSpec& spec, const LoopOptions& options) {
@@ -184,30 +139,8 @@ void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes) {
 }
 
 int run_process(int argc, char** argv, const ComponentSpec& spec) {
-  CLI::App app{std::string{spec.summary}, std::string{spec.program}};
-  LoopOptions options;
-  add_loop_options(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
-  }
-  try {
-    log_without_waiting();
-    spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::warn);
-    install_stop_signals();
-    if (options.parent != 0) die_with(options.parent);
-    return run(spec, options);
-  } catch (const configuration::ConfigurationError& error) {
-    std::cerr << error.what() << '\n';
-    return kExitBadInput;
-  } catch (const std::exception& error) {
-    std::cerr << spec.program << ": " << error.what() << '\n';
-    return kExitFailed;
-  } catch (...) {  // ensures stack unwinding: the bridge then leaves its board at 0 V with closed brakes
-    std::cerr << spec.program << ": ended by an exception of an unknown type\n";
-    return kExitFailed;
-  }
+  return host(argc, argv, std::string{spec.program}, std::string{spec.summary},
+              [&spec](const LoopOptions& options) { return run(spec, options); });
 }
 
 }  // namespace crane::runtime

@@ -198,6 +198,7 @@ void add_bench(CLI::App& app, Action& chosen) {
   loop->callback([options, &chosen] { chosen = [options] { return bench_loop(*options); }; });
   add_bench_cpu(*command, chosen);
   add_bench_tick(*command, chosen);
+  add_bench_fleet(*command, chosen);
   add_bench_stop(*command, chosen);
   add_bench_diagnosis(*command, chosen);
 }

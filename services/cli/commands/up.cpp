@@ -27,6 +27,7 @@ struct UpOptions {
   stack::LaunchOptions launch;
   std::string rig = stack::kDefaultRig;
   stack::Plant plant = stack::Plant::simulated;
+  bool in_process = false;
   std::string record;
   LimitOptions record_limits;
   std::filesystem::path black_box = black_box::default_directory();
@@ -116,8 +117,35 @@ bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::opt
   return true;
 }
 
+/// In one process nothing separates the supervisor and the last check of the bridge from an error in another
+/// component. A real crane needs this separation (docs/safety.md).
+void require_possible_in_process(const UpOptions& options) {
+  if (!options.in_process) return;
+  std::vector<std::string> problems;
+  const auto refuse = [&](const std::string& option, const std::string& why) {
+    problems.push_back("--in-process: cannot be combined with " + option + ": " + why);
+  };
+  if (options.plant == stack::Plant::hardware)
+    refuse("--plant hardware",
+           "an error in one component would end or corrupt supervisor and bridge with it; start the crane "
+           "without --in-process");
+  if (options.launch.clock == "lockstep")
+    refuse("--clock lockstep", "for lockstep in one process use `crane run --in-process`");
+  if (!options.launch.bus.secure.empty())
+    refuse("--secure", "a process has the rights of one role; the components have six roles");
+  for (const auto& entry : options.vendors)
+    if (!entry.starts_with("twin="))
+      refuse("--dds-for " + entry, "all components of the process use the DDS implementation of --dds");
+  if (!problems.empty()) throw configuration::ConfigurationError(std::move(problems));
+}
+
+/// Many cranes that start at the same time in one domain discover each other for up to half a minute
+/// (docs/fleet.md).
+constexpr std::chrono::seconds kPatience{60};
+
 int up(UpOptions options) {
   runtime::install_stop_signals();
+  require_possible_in_process(options);
   (void)limits_of(options.record_limits);  // reports problems before any process is started
   options.launch.rig = stack::find_rig(options.rig).string();
   const auto rig = configuration::load_rig(options.launch.rig);
@@ -136,7 +164,10 @@ int up(UpOptions options) {
   runtime::refuse_second_writer(bus, supervisor::supervisor_spec().writes);
   stack::ChildProcesses children;
   if (plant == stack::Plant::hardware) stack::launch_rig(children, rig, options.launch);
-  stack::launch(children, loop, options.launch);
+  if (options.in_process)
+    stack::launch_in_process(children, options.launch);
+  else
+    stack::launch(children, loop, options.launch);
   if (specs.size() > loop.size()) stack::launch_twin(children, twin_rig, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
   if (!options.no_black_box) start_black_box(children, options);
@@ -146,7 +177,7 @@ int up(UpOptions options) {
     std::filesystem::create_directories(options.dashboard_runs);
     dashboard.start();
   }
-  stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
+  stack::wait_until_ready(children, specs, bus, kPatience);
   if (options.launch.clock == "lockstep")
     stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
         {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
@@ -178,6 +209,9 @@ void add_up(CLI::App& app, Action& chosen) {
                    "realtime; or lockstep: simulated time, as fast as possible")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
+  command->add_flag("--in-process", options->in_process,
+                    "run the components of the loop in one process: less processor time and memory per "
+                    "crane; only with the simulated plant, because an error in one component ends all");
   command->add_option("--record", options->record, "record every topic to this MCAP file");
   add_limit_options(*command, options->record_limits, "--record-");
   command
@@ -206,6 +240,8 @@ void add_up(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples: crane up --dashboard                             (then open http://127.0.0.1:8765/)\n"
       "          crane up --rig virginia_tech_tower --record run.mcap\n"
+      "          crane up --in-process --crane crane_7                    (one of many cranes: "
+      "docs/fleet.md)\n"
       "          crane up --plant hardware --rig emulated_servo_to_go     (docs/hardware.md)");
   command->callback([options, &chosen] { chosen = [options] { return up(*options); }; });
 }

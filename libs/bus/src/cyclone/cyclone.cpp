@@ -41,7 +41,7 @@ QosPointer endpoint_qos(const Quality& quality, bool history, const EndpointOpti
   return qos;
 }
 
-/// Argument of the listeners: the event handler of the endpoint and the doorbell of the bus.
+/// Argument of the listeners: the event handler of the endpoint and, for a reader, the doorbell of its bus.
 struct Context {
   Announcer announce;
   std::shared_ptr<Doorbell> doorbell;
@@ -197,8 +197,8 @@ class CycloneReader final : public detail::Reader {
 
 class CycloneBackEnd final : public BackEnd {
  public:
-  CycloneBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
-      : domain_{options}, doorbell_{std::move(doorbell)}, census_{options.messages_version, options.crane} {
+  explicit CycloneBackEnd(const Options& options)
+      : domain_{options}, census_{options.messages_version, options.crane} {
     const QosPointer qos{dds_create_qos()};
     dds_qset_entity_name(qos.get(), options.participant.c_str());
     const std::string announced = announcement(options);
@@ -225,14 +225,14 @@ class CycloneBackEnd final : public BackEnd {
                                          const EndpointOptions& options) override {
     const auto q = quality(topic, options);
     const auto qos = endpoint_qos(q, q.writer_history, options);
-    return std::make_unique<CycloneWriter>(endpoint(topic, options), publisher_, qos.get());
+    return std::make_unique<CycloneWriter>(endpoint(topic, options, nullptr), publisher_, qos.get());
   }
-  std::unique_ptr<detail::Reader> reader(const topics::Description& topic,
-                                         const EndpointOptions& options) override {
+  std::unique_ptr<detail::Reader> reader(const topics::Description& topic, const EndpointOptions& options,
+                                         std::shared_ptr<Doorbell> doorbell) override {
     const Quality q = quality(topic, options);
     const auto qos = endpoint_qos(q, q.reader_history, options);
-    return std::make_unique<CycloneReader>(endpoint(topic, options), subscriber_, qos.get(),
-                                           topic.descriptor->m_size);
+    return std::make_unique<CycloneReader>(endpoint(topic, options, std::move(doorbell)), subscriber_,
+                                           qos.get(), topic.descriptor->m_size);
   }
 
   std::vector<OtherVersion> other_versions() override {
@@ -255,12 +255,13 @@ class CycloneBackEnd final : public BackEnd {
   }
 
  private:
-  std::unique_ptr<Endpoint> endpoint(const topics::Description& topic, const EndpointOptions& options) {
-    return std::make_unique<Endpoint>(shared_from_this(), participant_, topic, options, doorbell_);
+  /// @param doorbell  null for a writer
+  std::unique_ptr<Endpoint> endpoint(const topics::Description& topic, const EndpointOptions& options,
+                                     std::shared_ptr<Doorbell> doorbell) {
+    return std::make_unique<Endpoint>(shared_from_this(), participant_, topic, options, std::move(doorbell));
   }
 
   cyclone::Domain domain_;
-  std::shared_ptr<Doorbell> doorbell_;
   Census census_;
   dds_entity_t participant_ = 0;
   dds_entity_t participants_ = 0;  ///< built-in reader of discovered participants
@@ -270,8 +271,8 @@ class CycloneBackEnd final : public BackEnd {
 
 }  // namespace
 
-std::shared_ptr<BackEnd> make_cyclone(const Options& options, std::shared_ptr<Doorbell> doorbell) {
-  return std::make_shared<CycloneBackEnd>(options, std::move(doorbell));
+std::shared_ptr<BackEnd> make_cyclone(const Options& options) {
+  return std::make_shared<CycloneBackEnd>(options);
 }
 
 }  // namespace crane::bus

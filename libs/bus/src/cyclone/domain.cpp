@@ -38,8 +38,8 @@ std::string configuration(const Options& options) {
   for (const auto& address : own) xml += "<NetworkInterface address=\"" + address + "\"/>";
   xml += "</Interfaces></General><Discovery><ParticipantIndex>";
   xml += unicast ? "auto" : "none";
-  xml += "</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kMostParticipants - 1);
-  xml += "</MaxAutoParticipantIndex>";  // the default 9 permits 10 processes
+  xml += "</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kMostParticipants);
+  xml += "</MaxAutoParticipantIndex>";  // Cyclone DDS uses the indices below this number
   if (unicast) {
     xml += "<Peers>";
     for (const auto& peer : options.peers) xml += "<Peer address=\"" + peer + "\"/>";
@@ -49,8 +49,9 @@ std::string configuration(const Options& options) {
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
   const bool network = crosses_network(options);
   const auto heartbeat = std::to_string((network ? kNetworkHeartbeat : kHeartbeat).count()) + "ms";
-  const std::string least = network ? "1ms" : "5ms";
-  xml += "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"1s\">" + heartbeat;
+  const std::string least = network ? "1ms" : "20ms", most = network ? "1s" : "8s";
+  xml +=
+      "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"" + most + "\">" + heartbeat;
   xml += "</HeartbeatInterval><NackDelay>";
   xml += network ? "0s" : "1ms";
   xml += "</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
@@ -73,11 +74,7 @@ void report(void* /*unused*/, const dds_log_data_t* entry) {
 
 std::string cannot_open(const Options& options) {
   const std::string domain = std::to_string(options.domain), host = options.interfaces.front();
-  if (no_free_index)
-    return "domain " + domain + " has no free participant index on " + host + ": it holds " +
-           std::to_string(kMostParticipants) +
-           " participants per host (a crane has about eight; UDP ports that other programs use count, too); "
-           "start this crane with another --domain";
+  if (no_free_index) return no_free_number(options);
   return "cannot open domain " + domain + " on " + host + "; is the interface up, and are UDP ports " +
          std::to_string(first_port(options.domain)) + " and up free?";
 }

@@ -104,9 +104,17 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
 /// discovery contacts only the ports of numbers below kMostParticipants.
 class ParticipantNumber {
  public:
-  ParticipantNumber() {
+  /// @throws Error when unicast discovery finds no participant with a free number
+  explicit ParticipantNumber(const Options& options) {
     const std::lock_guard lock{mutex()};
-    while (used().contains(number_)) ++number_;
+    const bool unicast = discovers_by_unicast(options);
+    const auto is_taken = [&] {
+      return used().contains(number_) ||
+             (unicast && !has_free_ports(options, static_cast<std::uint32_t>(number_)));
+    };
+    for (; is_taken(); ++number_)
+      if (unicast && number_ + 1 >= static_cast<int>(kMostParticipants))
+        throw Error{"Fast DDS: " + no_free_number(options)};
     used().insert(number_);
   }
   ParticipantNumber(const ParticipantNumber&) = delete;
@@ -163,8 +171,7 @@ class Discovery final : public dds::DomainParticipantListener {
 
 class FastBackEnd final : public BackEnd {
  public:
-  FastBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
-      : doorbell_{std::move(doorbell)}, discovery_{options} {
+  explicit FastBackEnd(const Options& options) : discovery_{options}, number_{options} {
     switch_intraprocess_delivery_off();
     report_to_vendor_log();
     auto* factory = dds::DomainParticipantFactory::get_instance();
@@ -191,9 +198,10 @@ class FastBackEnd final : public BackEnd {
     return fastdds::make_writer(shared_from_this(), *publisher_, topic(description), description, options);
   }
   std::unique_ptr<detail::Reader> reader(const topics::Description& description,
-                                         const EndpointOptions& options) override {
+                                         const EndpointOptions& options,
+                                         std::shared_ptr<Doorbell> doorbell) override {
     return fastdds::make_reader(shared_from_this(), *subscriber_, topic(description), description, options,
-                                doorbell_);
+                                std::move(doorbell));
   }
 
   std::vector<OtherVersion> other_versions() override { return discovery_.others(); }
@@ -210,7 +218,6 @@ class FastBackEnd final : public BackEnd {
     return *created;
   }
 
-  std::shared_ptr<Doorbell> doorbell_;
   Discovery discovery_;       // must outlive the participant
   ParticipantNumber number_;  // released after the participant is deleted
   std::unique_ptr<dds::DomainParticipant, ParticipantDeleter> participant_;
@@ -220,8 +227,8 @@ class FastBackEnd final : public BackEnd {
 
 }  // namespace
 
-std::shared_ptr<BackEnd> make_fastdds(const Options& options, std::shared_ptr<Doorbell> doorbell) {
-  return std::make_shared<FastBackEnd>(options, std::move(doorbell));
+std::shared_ptr<BackEnd> make_fastdds(const Options& options) {
+  return std::make_shared<FastBackEnd>(options);
 }
 
 }  // namespace crane::bus

@@ -71,12 +71,11 @@ class MemoryReader final : public detail::Reader {
 
 class MemoryBackEnd final : public BackEnd {
  public:
-  MemoryBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
+  explicit MemoryBackEnd(const Options& options)
       : network_{options.network},
         number_{network_->next_participant()},
         partition_{options.crane},
-        messages_version_{options.messages_version},
-        doorbell_{std::move(doorbell)} {}
+        messages_version_{options.messages_version} {}
 
   std::unique_ptr<detail::Writer> writer(const topics::Description& topic,
                                          const EndpointOptions& options) override {
@@ -85,11 +84,11 @@ class MemoryBackEnd final : public BackEnd {
     return std::make_unique<MemoryWriter>(
         network_, WriterPort{port(topic, options), memory::History{codec, depth}, messages_version_});
   }
-  std::unique_ptr<detail::Reader> reader(const topics::Description& topic,
-                                         const EndpointOptions& options) override {
-    return std::make_unique<MemoryReader>(
-        network_, ReaderPort{port(topic, options), doorbell_, memory::SampleQueue{topic.descriptor->m_size},
-                             quality(topic, options).reader_history});
+  std::unique_ptr<detail::Reader> reader(const topics::Description& topic, const EndpointOptions& options,
+                                         std::shared_ptr<Doorbell> doorbell) override {
+    return std::make_unique<MemoryReader>(network_, ReaderPort{port(topic, options), std::move(doorbell),
+                                                               memory::SampleQueue{topic.descriptor->m_size},
+                                                               quality(topic, options).reader_history});
   }
 
  private:
@@ -101,13 +100,12 @@ class MemoryBackEnd final : public BackEnd {
   std::uint64_t number_;
   std::string partition_;
   std::uint32_t messages_version_;
-  std::shared_ptr<Doorbell> doorbell_;
 };
 
 }  // namespace
 
-std::shared_ptr<BackEnd> make_memory(const Options& options, std::shared_ptr<Doorbell> doorbell) {
-  return std::make_shared<MemoryBackEnd>(options, std::move(doorbell));
+std::shared_ptr<BackEnd> make_memory(const Options& options) {
+  return std::make_shared<MemoryBackEnd>(options);
 }
 
 }  // namespace crane::bus

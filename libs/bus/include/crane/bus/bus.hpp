@@ -42,15 +42,20 @@ struct OtherVersion {
 /// A sample of the topic with this name has arrived.
 using ArrivalHandler = std::function<void(std::string_view topic)>;
 
-/// One DDS participant in one domain. The calls of publish, take and wait must not overlap; event handlers
-/// run on threads of the vendor. Publishers and subscribers keep the participant alive, and may outlive their
-/// Bus.
+/// One DDS participant in one domain, or a share of one (share()). The calls of publish, take and wait must
+/// not overlap; event handlers run on threads of the vendor. Publishers and subscribers keep the participant
+/// alive, and may outlive their Bus.
 class Bus {
  public:
   explicit Bus(Options options);  ///< @throws Error
   ~Bus();
   Bus(Bus&&) noexcept;
   Bus& operator=(Bus&&) noexcept;
+
+  /// Another bus of the same participant, for another component of this process: with its own source and
+  /// start-up number, its own wait() and its own arrival handler. Both buses exchange samples like buses of
+  /// two participants. A share has the keys of this bus.
+  [[nodiscard]] Bus share(crane_Source source, std::uint32_t epoch) const;
 
   template <class T>
   [[nodiscard]] Publisher<T> publisher(const topics::Topic<T>& topic, const EndpointOptions& endpoint = {}) {
@@ -88,6 +93,7 @@ class Bus {
   UntypedPublisher make_publisher(const topics::Description&, const EndpointOptions&);
   UntypedSubscriber make_subscriber(const topics::Description&, const EndpointOptions&);
   struct State;
+  explicit Bus(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

@@ -5,10 +5,23 @@
 namespace crane::bus {
 
 inline constexpr std::uint32_t kPortBase = 7400, kDomainGain = 250;
+/// Offset of the first unicast port of a domain, and distance between the ports of two participants: each
+/// participant has a port for discovery and the next one for samples.
+inline constexpr std::uint32_t kUnicastOffset = 10, kParticipantGain = 2;
 
 /// First port of a domain: discovery by multicast.
 [[nodiscard]] constexpr std::uint32_t first_port(std::uint32_t domain) {
   return kPortBase + kDomainGain * domain;
+}
+
+/// First of the two unicast ports of a participant: discovery.
+[[nodiscard]] constexpr std::uint32_t unicast_port(std::uint32_t domain, std::uint32_t participant) {
+  return first_port(domain) + kUnicastOffset + kParticipantGain * participant;
+}
+
+/// Number of participants whose unicast ports lie below the first port of the next domain: 120.
+[[nodiscard]] constexpr std::uint32_t most_participants() {
+  return (kDomainGain - kUnicastOffset) / kParticipantGain;
 }
 
 }  // namespace crane::bus

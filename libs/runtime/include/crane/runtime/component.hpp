@@ -1,7 +1,7 @@
 #pragma once
 /// A component is one part of the control loop, for example the tracking law. It has named inputs and
 /// outputs, internal state, and one step per tick. Two hosts run the same component: a separate process over
-/// DDS (process.hpp), or one process that runs all components of a stack over the memory bus
+/// DDS (process.hpp), or one process that runs all components of a stack, over the memory bus or over DDS
 /// (in_process.hpp). A component never blocks or sleeps. For control it reads no clock: time is an argument.
 #include <cstdint>
 #include <limits>

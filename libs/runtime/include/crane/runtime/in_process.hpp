@@ -1,39 +1,66 @@
 #pragma once
-/// A whole stack in one process over the memory bus, for tests and for large numbers of runs. Lockstep only.
-/// Its recording equals, bit for bit, the recording of a stack of separate processes.
+/// A whole stack in one process. In lockstep the components communicate over the memory bus; the recording
+/// equals, bit for bit, the recording of a stack of separate processes. In real time they communicate over
+/// DDS, so that other programs receive every topic (loop_process.hpp).
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "crane/runtime/hosted_component.hpp"
 
 namespace crane::runtime {
 
+/// Creates the bus of one component.
+using BusOf = std::function<bus::Bus(const ComponentSpec&)>;
+
 class InProcessStack {
  public:
-  /// Builds every component of `specs`. `rig` and `controller` must outlive the stack.
+  /// Lockstep: builds every component of `specs` on a new memory network. `rig` and `controller` must outlive
+  /// the stack.
   InProcessStack(std::span<const ComponentSpec> specs, const configuration::Rig& rig,
                  const control::Controller& controller);
-  /// Adds a component that uses another rig file. `rig` and `controller` must outlive the stack.
+  /// Real time: builds every component of `specs` on the bus that `bus_of` creates for it.
+  InProcessStack(std::span<const ComponentSpec> specs, const configuration::Rig& rig,
+                 const control::Controller& controller, const BusOf& bus_of);
+  /// Lockstep: adds a component that uses another rig file. `rig` and `controller` must outlive the stack.
   void add(const ComponentSpec& spec, const configuration::Rig& rig, const control::Controller& controller);
 
-  /// The network of the components, for the Bus of an operator or a recorder.
+  /// Lockstep: the network of the components, for the Bus of an operator or a recorder.
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
   /// Polls all components repeatedly until every component waits for input. @return true when a component has
   /// processed something
   bool pump();
+  /// Real time: sleeps until a sample arrives, or until a component must be polled without a new sample, at
+  /// most until `latest_ns`.
+  void wait(std::int64_t latest_ns);
   /// One line per component with its missing inputs.
   [[nodiscard]] std::string waiting_for() const;
   [[nodiscard]] Component& component(std::size_t index) { return rooms_.at(index).hosted->component(); }
+  [[nodiscard]] std::size_t size() const { return rooms_.size(); }
+  [[nodiscard]] Node& node(std::size_t index) { return rooms_.at(index).hosted->node(); }
 
  private:
   struct Room {
-    std::unique_ptr<bus::Bus> bus;
+    explicit Room(bus::Bus own) : bus{std::move(own)} {}
+    std::atomic<bool> has_samples = false;  ///< real time: a sample has arrived since the last poll
+    bus::Bus bus;
     std::unique_ptr<HostedComponent> hosted;
   };
-  std::shared_ptr<bus::MemoryNetwork> network_;
-  std::vector<Room> rooms_;
+  void add(const ComponentSpec& spec, const configuration::Rig& rig, const control::Controller& controller,
+           bus::Bus bus, Clock clock);
+  void arrived(Room& room);
+
+  std::shared_ptr<bus::MemoryNetwork> network_;  ///< null in real time
+  std::mutex mutex_;                             ///< of arrived_
+  std::condition_variable arrival_;
+  bool arrived_ = false;  ///< a sample has arrived since the last pass of pump()
+  std::deque<Room> rooms_;
 };
 
 /// Options for a Bus on `network`.

@@ -1,0 +1,73 @@
+#pragma once
+/// Several cranes on this computer, each started by `crane up`, for `crane bench fleet`.
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crane/configuration/rig.hpp"
+#include "stack/child_processes.hpp"
+#include "stack/launch.hpp"
+#include "stack/operator_client.hpp"
+
+namespace crane::cli {
+
+/// Processor time [ns] and memory of `crane up` and all its child processes.
+struct CraneUse {
+  std::int64_t loop_ns = 0;   ///< processes of the control loop
+  std::int64_t other_ns = 0;  ///< crane up, black box
+  double memory_mb = 0;       ///< proportional set size: a page that processes share counts once
+  int processes = 0;
+};
+[[nodiscard]] CraneUse use_of(pid_t crane_up);
+
+struct FleetCrane {
+  std::string name;
+  pid_t pid = 0;  ///< of `crane up`
+  std::int64_t started_ns = 0;
+  std::optional<double> start_up_s{};  ///< from the start until every process of the loop is ready
+  int moves = 0;                       ///< accepted moves
+  std::map<std::string, msg::NodeStatus> statuses{};  ///< newest status of each component
+
+  /// Lost ticks of the component with the most lost ticks, since the start.
+  [[nodiscard]] std::uint64_t lost_ticks() const;
+};
+
+/// Observes and operates all cranes of a fleet with one participant: the partition PREFIX* contains all of
+/// them. Every request therefore reaches all cranes.
+class Fleet {
+ public:
+  /// @param bus  its crane is the common prefix of the names
+  Fleet(runtime::BusOptions bus, const configuration::Rig& rig);
+
+  void add(std::string name, pid_t crane_up);
+  /// Takes statuses and replies. When the operator is on, resets and arms the cranes that are not armed yet,
+  /// and moves all to and fro.
+  void poll();
+  void operate() { operates_ = true; }
+  [[nodiscard]] const std::vector<FleetCrane>& cranes() const { return cranes_; }
+
+ private:
+  void take_statuses(std::int64_t now_ns);
+  void take_replies();
+  void send_next(std::int64_t now_ns);
+  FleetCrane* owner_of(pid_t process);
+  FleetCrane* crane_of_supervisor(std::uint32_t epoch);
+
+  bus::Bus bus_;
+  bus::Subscriber<msg::NodeStatus> statuses_;
+  stack::OperatorClient operator_;
+  std::vector<FleetCrane> cranes_;
+  std::map<pid_t, std::size_t> owners_;  ///< index of the crane of a process
+  std::size_t axis_ = 0;                 ///< the axis that moves
+  std::array<double, 2> targets_{};
+  std::vector<std::uint64_t> moves_sent_;
+  bool operates_ = false;
+  std::size_t requests_ = 0;
+  std::int64_t next_ns_ = 0;
+};
+
+}  // namespace crane::cli
