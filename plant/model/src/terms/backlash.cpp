@@ -97,9 +97,11 @@ TermKind backlash() {
   return {
       .name = "backlash",
       .equation =
-          "suspension point at p + b, b'' = (j J (k - a tanh((p' + b')/v_s)) + P - C) / (j J + M_j x2) + Z - "
-          "p''; contact k = 0 for |b| < h/2, otherwise a damped spring of 25 Hz (trolley) or 15 Hz (jib); "
-          "M_j x2 and C = 2 M_j x x' slew' for a jib only, Z = (x + b) slew'^2 for a trolley only; inertia "
+          "suspension point at p + b, b'' = (j J (k - a tanh((p' + b')/v_s)) + P - C) / (j J + M_j x^2) + Z "
+          "- "
+          "p'', v_s = 0.003 m/s or rad/s; contact k = 0 for |b| < h/2, otherwise a damped spring of 25 Hz "
+          "(trolley) or 15 Hz (jib); "
+          "M_j x^2 and C = 2 M_j x x' slew' for a jib only, Z = (x + b) slew'^2 for a trolley only; inertia "
           "of the motor (1 - j) J, force on the motor -(j J k + P), friction of the motor smaller by r j a / "
           "K",
       .source =
@@ -120,7 +122,8 @@ TermKind backlash() {
            {"known_guide_share", "1", 0, 0, 1,
             "r, share of the guide's friction j J a that the friction of the rig file contains: the "
             "friction of the motor is smaller by this share"},
-           {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1, "width of the step of r j a / K at v = 0"}},
+           {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+            "width of the step of the friction r j a / K of the motor at v = 0; not v_s of the guide"}},
       .example = {"backlash", "trolley", {{"gap", 0.004}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<Backlash>(s); }};
 }

@@ -30,9 +30,8 @@ TermKind direction_asymmetry() {
   return {
       .name = "direction_asymmetry",
       .equation =
-          "f = c tanh(|v|/v_s) + b |v|: friction opposes the motion by c + b |v| more for v > 0, by as much "
-          "less "
-          "for v < 0",
+          "f = c tanh(|v|/v_s) + b |v|; the friction that opposes the motion is larger by c + b |v| for v > "
+          "0 and smaller by the same amount for v < 0",
       .source =
           "the difference between the friction (3.1) of the two directions differs from that of the rig file",
       .acts_on = ActsOn::drive,

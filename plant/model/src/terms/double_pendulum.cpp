@@ -110,9 +110,8 @@ TermKind double_pendulum() {
           "m_2) e_2 "
           "with the tensions that keep both lengths; F = T_2 along the lower cable on the hook",
       .source =
-          "hook and load are two masses on two cables: Newton's law of both, exact while the suspension "
-          "point is at "
-          "rest",
+          "hook and load are two masses on two cables; the equations are exact while the suspension point is "
+          "at rest",
       .acts_on = ActsOn::structure,
       .axes = {""},
       .parameters = {{"lower_share", "1", 0, 0, 0.9, "mu, share of the load mass that hangs below the hook"},

@@ -46,10 +46,11 @@ TermKind jib_flexibility() {
       .name = "jib_flexibility",
       .equation =
           "suspension point at gamma + d, d'' = k - gamma'', k = -d/c - 2 z d'/sqrt(c); for j > 0 the spring "
-          "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x2) - gamma''; inertia of the "
+          "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x^2) - gamma''; inertia of "
+          "the "
           "motor (1 - j) J_o, torque on the motor -(j J_o k + P)",
       .source =
-          "the jib bends sideways (first mode); its natural frequency with a fixed root is 1 / (2 pi "
+          "the jib bends sideways (first mode); with a fixed root, its natural frequency is 1 / (2 pi "
           "sqrt(c))",
       .acts_on = ActsOn::structure,
       .axes = {""},

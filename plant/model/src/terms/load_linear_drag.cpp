@@ -19,17 +19,17 @@ class LoadLinearDrag final : public Term {
 }  // namespace
 
 TermKind load_linear_drag() {
-  return {
-      .name = "load_linear_drag",
-      .equation = "F = -d r_L'",
-      .source = "viscous drag of the load; r_L' is the velocity of the load relative to the ground (2.12)",
-      .acts_on = ActsOn::load,
-      .axes = {""},
-      .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1000, "d, force / speed"}},
-      .example = {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},
-      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-        return std::make_unique<LoadLinearDrag>(s);
-      }};
+  return {.name = "load_linear_drag",
+          .equation = "F = -d r_L'",
+          .source =
+              "viscous drag acts on the load; r_L' is the velocity of the load relative to the ground (2.12)",
+          .acts_on = ActsOn::load,
+          .axes = {""},
+          .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1000, "d, force / speed"}},
+          .example = {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<LoadLinearDrag>(s);
+          }};
 }
 
 }  // namespace crane::plant

@@ -32,7 +32,8 @@ TermKind position_dependent_friction() {
   return {.name = "position_dependent_friction",
           .equation = "f = a (1 + cos(2 pi (p - p_0) / w)) / 2 tanh(v/v_s)",
           .source =
-              "a bent guide or an eccentric gear has tight spots at p_0 + n w; between them nothing is added",
+              "a bent guide or an eccentric gear adds friction: most at the tight spots p_0 + n w, none "
+              "midway between two tight spots",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"amplitude_v", "V", 0, 0, 10, "a, friction that a tight spot adds"},

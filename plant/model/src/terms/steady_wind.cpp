@@ -27,7 +27,8 @@ TermKind steady_wind() {
   return {
       .name = "steady_wind",
       .equation = "F = F_w {cos(a - gamma), sin(a - gamma), 0}",
-      .source = "a steady wind: constant force on the load, in a fixed direction relative to the ground",
+      .source =
+          "a steady wind exerts a constant force on the load, in a fixed direction relative to the ground",
       .acts_on = ActsOn::load,
       .axes = {""},
       .parameters = {{"force_n", "N", 0, 0, 1000, "F_w, force"},

@@ -29,20 +29,20 @@ class TorqueRipple final : public Term {
 }  // namespace
 
 TermKind torque_ripple() {
-  return {
-      .name = "torque_ripple",
-      .equation = "f = -a sin(2 pi p / w + psi): the drive gets V + a sin(2 pi p / w + psi)",
-      .source =
-          "the motor cogs or a gear is eccentric; the force depends on the position, not on the direction",
-      .acts_on = ActsOn::drive,
-      .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"amplitude_v", "V", 0, -10, 10, "a, amplitude"},
-                     {"phase_rad", "rad", 0, -7, 7, "psi, phase at position 0"},
-                     {"period", "m or rad", 0.1, 1e-3, 100, "w, distance between two maxima"}},
-      .example = {"torque_ripple", "slew", {{"amplitude_v", 0.3}, {"period", 0.14}}},
-      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-        return std::make_unique<TorqueRipple>(s);
-      }};
+  return {.name = "torque_ripple",
+          .equation = "f = -a sin(2 pi p / w + psi): the drive gets V + a sin(2 pi p / w + psi)",
+          .source =
+              "cogging of the motor or an eccentric gear causes a force that depends on the position, not on "
+              "the direction",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"amplitude_v", "V", 0, -10, 10, "a, amplitude"},
+                         {"phase_rad", "rad", 0, -7, 7, "psi, phase at position 0"},
+                         {"period", "m or rad", 0.1, 1e-3, 100, "w, distance between two maxima"}},
+          .example = {"torque_ripple", "slew", {{"amplitude_v", 0.3}, {"period", 0.14}}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<TorqueRipple>(s);
+          }};
 }
 
 }  // namespace crane::plant
