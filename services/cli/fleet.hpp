@@ -19,7 +19,7 @@ namespace crane::cli {
 struct CraneUse {
   std::int64_t loop_ns = 0;   ///< processes of the control loop
   std::int64_t other_ns = 0;  ///< crane up, black box
-  double memory_mb = 0;       ///< proportional set size: a page that processes share counts once
+  double memory_mb = 0;       ///< proportional set size: a page of n processes counts 1/n in each process
   int processes = 0;
 };
 [[nodiscard]] CraneUse use_of(pid_t crane_up);
@@ -29,24 +29,25 @@ struct FleetCrane {
   pid_t pid = 0;  ///< of `crane up`
   std::int64_t started_ns = 0;
   std::optional<double> start_up_s{};  ///< from the start until every process of the loop is ready
-  int moves = 0;                       ///< accepted moves
+  int moves = 0;                       ///< number of accepted moves
   std::map<std::string, msg::NodeStatus> statuses{};  ///< newest status of each component
 
-  /// Lost ticks of the component with the most lost ticks, since the start.
+  /// @return number of lost ticks, since the start, of the component with the most lost ticks
   [[nodiscard]] std::uint64_t lost_ticks() const;
 };
 
-/// Observes and operates all cranes of a fleet with one participant: the partition PREFIX* contains all of
-/// them. Every request therefore reaches all cranes.
+/// Observes and operates all cranes of a fleet with one participant. The DDS partition PREFIX* matches the
+/// partitions of all cranes. Therefore every request reaches all cranes.
 class Fleet {
  public:
-  /// @param bus  its crane is the common prefix of the names
+  /// @param bus  `bus.crane` is the common prefix of the names of the cranes
   Fleet(runtime::BusOptions bus, const configuration::Rig& rig);
 
   void add(std::string name, pid_t crane_up);
-  /// Takes statuses and replies. When the operator is on, resets and arms the cranes that are not armed yet,
-  /// and moves all to and fro.
+  /// Receives statuses and replies. After operate(), also sends requests: reset, arm and move in turn, until
+  /// every crane has accepted a move; then only moves.
   void poll();
+  /// Permits poll() to send requests.
   void operate() { operates_ = true; }
   [[nodiscard]] const std::vector<FleetCrane>& cranes() const { return cranes_; }
 
@@ -63,7 +64,7 @@ class Fleet {
   std::vector<FleetCrane> cranes_;
   std::map<pid_t, std::size_t> owners_;  ///< index of the crane of a process
   std::size_t axis_ = 0;                 ///< the axis that moves
-  std::array<double, 2> targets_{};
+  std::array<double, 2> targets_{};      ///< of the moves in turn, m or rad
   std::vector<std::uint64_t> moves_sent_;
   bool operates_ = false;
   std::size_t requests_ = 0;

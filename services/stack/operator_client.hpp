@@ -40,7 +40,7 @@ class OperatorClient {
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
   /// Replaces the DDS writer of the requests. A forged packet can make the readers skip all later samples of
-  /// one writer; they receive the samples of a new writer as soon as discovery has found it.
+  /// one writer. The readers receive the samples of the new writer as soon as they have discovered it.
   void renew_writer();
   /// The newest request of send(), without header and checksum, which the bus adds.
   [[nodiscard]] const msg::Request& last_sent() const { return last_sent_; }

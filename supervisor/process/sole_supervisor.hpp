@@ -5,8 +5,8 @@
 /// supervisors that have started together, one ends (yields()): the one with the larger start-up number, or
 /// the one that is new beside one that is established (in use). At most one of two ends: only a new
 /// supervisor ends, an established one never becomes new again, and of two start-up numbers only one is the
-/// larger one. A sample of crane/node alone ends no supervisor: every process may write this topic, while
-/// crane/supervisor has one writer, whom keys authenticate.
+/// larger one. A sample of crane/node alone ends no supervisor, because every process may write this topic.
+/// crane/supervisor has one writer, and keys authenticate this writer.
 #include <cstdint>
 #include <optional>
 #include <string>

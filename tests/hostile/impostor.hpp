@@ -7,8 +7,8 @@
 
 namespace crane::hostile {
 
-/// Forges the next packets of the supervisor: a HEARTBEAT makes the reader of the bridge skip the next
-/// samples of the supervisor, and the forged sequence numbers continue there.
+/// Forges the next packets of the supervisor. A HEARTBEAT makes the reader of the bridge skip the next
+/// sequence numbers of the supervisor; the forged packets use the numbers after the skipped ones.
 class Impostor {
  public:
   explicit Impostor(Packet model)

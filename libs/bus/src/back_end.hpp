@@ -75,7 +75,7 @@ struct Quality {
 /// Name of a DDS policy. Both vendors use the policy numbers of the DDS standard.
 [[nodiscard]] std::string_view policy_name(int id);
 
-/// One participant of one vendor. Its endpoints keep it alive. Several buses may share it.
+/// One participant of one vendor. Its endpoints keep the participant alive. Several buses may share it.
 class BackEnd : public std::enable_shared_from_this<BackEnd> {
  public:
   BackEnd() = default;

@@ -15,10 +15,10 @@ namespace crane::bus {
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
 
 /// Largest number of participants of one domain on one host with unicast discovery, for both vendors:
-/// discovery contacts the ports of this number of participants. All buses of a process over Cyclone DDS share
-/// one number. A higher number has ports of the next domain.
+/// discovery contacts the ports of the participant numbers below this limit. The ports of higher numbers
+/// belong to the next domain. All participants of a process over Cyclone DDS share one number.
 inline constexpr std::uint32_t kMostParticipants = most_participants();
-/// Message with cause and remedy when no number is free.
+/// @return message with cause and remedy for the case that no participant number is free
 [[nodiscard]] std::string no_free_number(const Options& options);
 /// @return true when both ports of the participant number are free on all own interfaces. Another process may
 /// take them at the next moment.
@@ -30,9 +30,10 @@ inline constexpr std::uint32_t kMostParticipants = most_participants();
 /// its tick.
 [[nodiscard]] bool crosses_network(const Options& options);
 inline constexpr std::chrono::milliseconds kNetworkHeartbeat{2};
-/// On the loop-back no datagram is lost unless a receive buffer is full. The writers of discovery of Cyclone
-/// DDS use the same period: while a domain of N participants starts, each of them sends heartbeats to all
-/// others, and with 20 ms these heartbeats fill the receive buffers (docs/fleet.md).
+/// On the loop-back interface, a datagram is lost only when a receive buffer is full. The discovery writers
+/// of Cyclone DDS use the same period. While the participants of a domain start, each participant sends these
+/// heartbeats to all others; with a period of 20 ms, the start of 64 participants takes longer than 12 s
+/// (docs/fleet.md).
 inline constexpr std::chrono::milliseconds kHeartbeat{100};
 
 }  // namespace crane::bus

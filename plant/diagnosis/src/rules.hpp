@@ -29,7 +29,7 @@ inline constexpr Rule kLeastBeside{
     "least_change_beside", 0.09, "1",
     "minimum change of an output by one effect / largest change of this output by another effect of the same "
     "hypothesis",
-    "as indistinct, whose square root it is: the form of a term matches an effect to this share"};
+    "square root of indistinct: the form of a term deviates from an effect by this share"};
 
 // Choice among hypotheses with the same number of effects (verdict/judgement.cpp).
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
@@ -46,13 +46,13 @@ inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
 inline constexpr Rule kHeldOutWin{
     "held_out_win", 0.95, "1", "minimum share of held-out resamples in which the extended model is likelier",
     "level of the test"};
-inline constexpr Rule kGainLevel{"gain_level", 0.95, "1",
-                                 "level of the interval of the held-out gain, whose upper end must exceed 0",
-                                 "level of the test"};
+inline constexpr Rule kGainLevel{
+    "gain_level", 0.95, "1",
+    "level of the interval of the held-out gain, whose upper end must not be below 0", "level of the test"};
 inline constexpr Rule kWorthwhile{
     "worthwhile", 0.03, "1",
-    "minimum reduction of the training error by an extension that the held-out runs "
-    "do not confirm, to be evidence of an error",
+    "minimum reduction of the training error at which an extension that the held-out runs do not confirm is "
+    "evidence of an error",
     "read off examples"};
 inline constexpr Rule kStandsStill{"stands_still", 0.1, "1",
                                    "simulated motion / measured motion below which the model stands still",

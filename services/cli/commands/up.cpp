@@ -117,8 +117,8 @@ bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::opt
   return true;
 }
 
-/// In one process nothing separates the supervisor and the last check of the bridge from an error in another
-/// component. A real crane needs this separation (docs/safety.md).
+/// Refuses options that --in-process excludes. In one process, an error in another component can corrupt the
+/// supervisor and the last check of the bridge; a real crane needs separate processes (docs/safety.md).
 void require_possible_in_process(const UpOptions& options) {
   if (!options.in_process) return;
   std::vector<std::string> problems;
@@ -139,8 +139,8 @@ void require_possible_in_process(const UpOptions& options) {
   if (!problems.empty()) throw configuration::ConfigurationError(std::move(problems));
 }
 
-/// Many cranes that start at the same time in one domain discover each other for up to half a minute
-/// (docs/fleet.md).
+/// Longest time until all processes are ready. Discovery of eight cranes that start at the same time in one
+/// domain takes up to 14 s on two busy cores, and the time grows with the number of cranes (docs/fleet.md).
 constexpr std::chrono::seconds kPatience{60};
 
 int up(UpOptions options) {
@@ -210,16 +210,18 @@ void add_up(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_flag("--in-process", options->in_process,
-                    "run the components of the loop in one process: less processor time and memory per "
-                    "crane; only with the simulated plant, because an error in one component ends all");
+                    "run all components of the loop in one process, which takes less processor time and "
+                    "memory; only with the simulated plant, because an error in one component ends or "
+                    "corrupts all components (docs/fleet.md)");
   command->add_option("--record", options->record, "record every topic to this MCAP file");
   add_limit_options(*command, options->record_limits, "--record-");
   command
-      ->add_option("--black-box", options->black_box, "directory in which every stop and fault is recorded")
+      ->add_option("--black-box", options->black_box,
+                   "directory for the recordings of stops and faults (docs/black_box.md)")
       ->capture_default_str();
   command->add_flag("--no-black-box", options->no_black_box, "do not record stops and faults");
   command->add_flag("--twin", options->twin,
-                    "run a live twin: a model beside the crane, which reports deviations (docs/twin.md)");
+                    "run a live twin: a model beside the crane that reports deviations (docs/twin.md)");
   command->add_option("--twin-rig", options->twin_rig,
                       "run a live twin of this rig file, for example extended.toml of crane diagnose");
   command->add_flag("--dashboard", options->dashboard,
@@ -235,7 +237,7 @@ void add_up(CLI::App& app, Action& chosen) {
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
-  command->add_flag("--verbose", options->launch.verbose, "processes log every detail");
+  command->add_flag("--verbose", options->launch.verbose, "log debug messages");
   runtime::add_bus_options(*command, options->launch.bus);
   command->footer(
       "Examples: crane up --dashboard                             (then open http://127.0.0.1:8765/)\n"

@@ -1,5 +1,5 @@
 #pragma once
-/// When one fitted hypothesis is better than another.
+/// Comparisons of fitted hypotheses.
 #include <cstdint>
 #include <vector>
 
@@ -26,13 +26,17 @@ namespace crane::diagnosis {
 /// over whole runs. Only the columns on which an effect acts that `before` does not have.
 [[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before);
 
-/// The same in windows only.
+/// Like share_of_error(), in windows only.
 [[nodiscard]] double share_of_error_in_windows(const Fitted& fitted, const Fitted& before);
 
-/// True when the gain of likelihood is significant for the best of `candidates` (Bonferroni), and the error
-/// decreases: by kLeastAlone for a first effect. A further effect changes some output by kLeastBeside of the
-/// change by the other effects: the form of a term never matches an effect exactly, and a smaller change
-/// could be the fit of this mismatch.
+/// True when three conditions hold:
+/// - The gain of likelihood is significant for the best of `candidates` (Bonferroni): block test and
+///   likelihood-ratio test.
+/// - The error decreases: for a first effect by more than kLeastAlone, for a further effect by any amount.
+/// - Each further effect changes some output by at least kLeastBeside of the largest change by another
+/// effect.
+///   The form of a term never matches an effect exactly, and a smaller change could be the fit of this
+///   mismatch.
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
@@ -54,7 +58,7 @@ namespace crane::diagnosis {
 [[nodiscard]] double held_out_loss_p_value(const Fitted& fitted, const Fitted& before, double held_out_nats);
 /// p-value of the Wald test (Trans. Amer. Math. Soc. 54 (1943) 426) of "the amount of the least certain
 /// effect is 0": two-sided tail of the normal distribution at amount / standard deviation. For an effect with
-/// two amounts, the more certain one. In [0, 1]; 0 without effects.
+/// two amounts, the more certain amount counts. In [0, 1]; 0 without effects.
 /// @param fitted with std_dev from with_intervals()
 [[nodiscard]] double wald_p_value(const Fitted& fitted);
 /// True when `p_value` is not significant for the best of `candidates` (Bonferroni, kFamilywiseLevel).
@@ -64,7 +68,7 @@ namespace crane::diagnosis {
 [[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);
 
 /// Share of the votes for each rival; the remaining votes are for `best`. Each block resample is one vote,
-/// over the blocks on which the effects act that only `best` has. A rival whose deviance is lower than that
+/// over the blocks on which those effects act that only `best` has. A rival whose deviance is lower than that
 /// of `best` by more than kIndistinct of the gain of `best` gets the whole vote. Otherwise `best` shares the
 /// vote equally with all rivals whose deviance is not higher by as much.
 /// @param base the model without effects

@@ -18,9 +18,9 @@ class InitialValues {
   /// The effects of `given` and the candidate of `score` with its best initial values.
   [[nodiscard]] Effects of(const Fitted& given, const Score& score);
 
-  /// Adds initial values to the scores of the candidates that can oscillate at the lines that `given` leaves
-  /// in the swing. @param seed of the test for lines @return these candidates; none without a significant
-  /// line
+  /// For each significant line in the residual of the swing of `given`: adds initial values to the scores of
+  /// the candidates that can oscillate at this line. @param seed of the test for lines @return these
+  /// candidates
   [[nodiscard]] std::vector<const Candidate*> add_of_lines(const Fitted& given, std::uint64_t seed,
                                                            ScoreTable& scores) const;
 

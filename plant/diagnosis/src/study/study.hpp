@@ -58,8 +58,8 @@ struct Fitted {
   std::array<double, kOutputs> error{};
   /// The same over whole runs, for swings only: a drive integrates any error of friction into its position.
   std::array<double, kOutputs> whole_error{};
-  /// Rms change of the simulation in windows by each effect beside the others, from the same starts, m or
-  /// rad.
+  /// By effect and output: rms difference, in windows, between the simulations with and without the effect,
+  /// from the same starts, m or rad.
   std::vector<std::array<double, kOutputs>> change;
   std::vector<double> std_dev;  ///< of all values in the order of `effects`; block-robust
   Eigen::MatrixXd covariance;   ///< of all values, before resampling
@@ -238,7 +238,7 @@ class Study {
   void whiten_test(const Nuisance& nuisance);
   /// Error of the simulation by output: mean over the windows of the rms error of each, m or rad.
   [[nodiscard]] std::array<double, kOutputs> errors_of(const Evaluation& at) const;
-  /// Rms change of the outputs in windows when the effect is omitted, from the starts of the fit, m or rad.
+  /// Rms change of the outputs in windows when `effect` is omitted, from the starts of the fit, m or rad.
   [[nodiscard]] std::array<double, kOutputs> change_by(const Fitted& fitted, std::size_t effect) const;
   /// Sets noise, deviance and sizes in the present noise.
   void judge_by_likelihood(Fitted& fitted) const;

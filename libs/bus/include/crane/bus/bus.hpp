@@ -42,9 +42,9 @@ struct OtherVersion {
 /// A sample of the topic with this name has arrived.
 using ArrivalHandler = std::function<void(std::string_view topic)>;
 
-/// One DDS participant in one domain, or a share of one (share()). The calls of publish, take and wait must
-/// not overlap; event handlers run on threads of the vendor. Publishers and subscribers keep the participant
-/// alive, and may outlive their Bus.
+/// One DDS participant in one domain, or a share of a participant (share()). The calls of publish, take and
+/// wait must not overlap; event handlers run on threads of the vendor. Publishers and subscribers keep the
+/// participant alive, and may outlive their Bus.
 class Bus {
  public:
   explicit Bus(Options options);  ///< @throws Error
@@ -52,9 +52,9 @@ class Bus {
   Bus(Bus&&) noexcept;
   Bus& operator=(Bus&&) noexcept;
 
-  /// Another bus of the same participant, for another component of this process: with its own source and
-  /// start-up number, its own wait() and its own arrival handler. Both buses exchange samples like buses of
-  /// two participants. A share has the keys of this bus.
+  /// @return another bus of the same participant, for another component of this process. The new bus has its
+  /// own source, start-up number, wait() and arrival handler, and the keys of this bus. Both buses exchange
+  /// samples like the buses of two participants.
   [[nodiscard]] Bus share(crane_Source source, std::uint32_t epoch) const;
 
   template <class T>

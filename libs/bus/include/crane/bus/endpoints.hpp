@@ -14,12 +14,12 @@
 namespace crane::bus {
 
 /// Identifies the DDS writer of a sample: equal for all samples of one writer, different for any two writers.
-/// Valid within this process. The middleware assigns the identifier; a sender that uses a DDS implementation
-/// cannot choose it. A Header, in contrast, can be copied by any sender.
+/// Valid within this process. Any sender can copy a Header. A sender can copy the GUID of a writer only
+/// without keys, by a choice of its own GUID prefix or by forged RTPS packets (docs/security.md).
 using WriterId = std::array<std::uint8_t, 16>;
 
-/// Identifies the DDS participant of a writer: equal for all writers of one Bus, different for any two buses.
-/// The middleware assigns it; over DDS it is the GUID prefix.
+/// Identifies the DDS participant of a writer: equal for all writers of one participant, which a Bus and its
+/// shares (Bus::share) have in common; different for any two participants. Over DDS, the GUID prefix.
 using ParticipantId = std::array<std::uint8_t, 12>;
 /// The writer has ended before its sample was taken: its participant cannot be determined.
 inline constexpr ParticipantId kUnknownParticipant{};

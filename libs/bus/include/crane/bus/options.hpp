@@ -1,5 +1,5 @@
 #pragma once
-/// Options of a bus and of its endpoints, events of an endpoint.
+/// Options of a bus and of its endpoints; events of an endpoint.
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -27,7 +27,7 @@ class Error : public std::runtime_error {
 
 class MemoryNetwork;  ///< connects the buses of an in-process stack; all buses of one stack share one network
 
-/// Absolute paths of one participant's files for DDS Security: PEM; documents signed as S/MIME.
+/// Absolute paths of one participant's files for DDS Security: PEM, or S/MIME for the last two.
 struct Credentials {
   std::string identity_ca, identity_certificate, private_key;
   std::string permissions_ca, governance, permissions;
@@ -36,7 +36,7 @@ struct Credentials {
 struct Options {
   Vendor vendor = Vendor::cyclone;
   std::uint32_t domain = 0;                          ///< 0..100
-  std::string crane = "crane";                       ///< DDS partition: separates cranes in one domain
+  std::string crane = "crane";                       ///< DDS partition, which separates cranes in one domain
   std::string participant = "node";                  ///< name that DDS tools show
   crane_Source source = crane_SOURCE_NONE;           ///< Header.source of every published sample
   std::uint32_t epoch = 0;                           ///< Header.epoch of every published sample
@@ -68,7 +68,7 @@ struct Event {
   /// incompatible_qos: name of the policy. Cyclone DDS also reports endpoints of other partitions (cranes).
   std::string_view policy;
 };
-/// Runs on a vendor thread, and must not block.
+/// Called by a thread of the vendor; must not block.
 using EventHandler = std::function<void(const Event&)>;
 
 /// Quality of service of one endpoint beyond that of its topic.

@@ -1,12 +1,12 @@
 #pragma once
-/// UDP ports of a DDS domain (OMG DDSI-RTPS 2.2, 9.6.2.3: PB + DG domain + offsets).
+/// UDP ports of a DDS domain (OMG DDSI-RTPS 2.2, 9.6.2.3): PB + DG * domain + offset.
 #include <cstdint>
 
 namespace crane::bus {
 
-inline constexpr std::uint32_t kPortBase = 7400, kDomainGain = 250;
-/// Offset of the first unicast port of a domain, and distance between the ports of two participants: each
-/// participant has a port for discovery and the next one for samples.
+inline constexpr std::uint32_t kPortBase = 7400, kDomainGain = 250;  // PB, DG
+/// Offset of the first unicast port of a domain; distance between the first ports of two participants. Each
+/// participant has two consecutive ports: the first for discovery, the second for samples.
 inline constexpr std::uint32_t kUnicastOffset = 10, kParticipantGain = 2;
 
 /// First port of a domain: discovery by multicast.

@@ -65,7 +65,7 @@ inline void assign(double (&field)[control::kAxes], const std::array<double, con
   return {field[0], field[1], field[2]};
 }
 
-/// Swing rates that a kick adds to the load.
+/// Change of the swing rates of the load by a kick.
 struct Kick {
   double radial_radps = 0, tangential_radps = 0;
 };

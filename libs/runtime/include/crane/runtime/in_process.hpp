@@ -1,7 +1,7 @@
 #pragma once
-/// A whole stack in one process. In lockstep the components communicate over the memory bus; the recording
-/// equals, bit for bit, the recording of a stack of separate processes. In real time they communicate over
-/// DDS, so that other programs receive every topic (loop_process.hpp).
+/// All components of a stack in one process. In lockstep, the components communicate over the memory bus; the
+/// recording equals, bit for bit, that of a stack of separate processes. In real time, the components
+/// communicate over DDS, so that other programs receive every topic (loop_process.hpp).
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -33,13 +33,13 @@ class InProcessStack {
 
   /// Lockstep: the network of the components, for the Bus of an operator or a recorder.
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
-  /// Polls all components repeatedly until every component waits for input. @return true when a component has
-  /// processed something
+  /// Polls the components until all of them wait for input. @return true when a component has processed
+  /// something
   bool pump();
   /// Real time: sleeps until a sample arrives, or until a component must be polled without a new sample, at
   /// most until `latest_ns`.
   void wait(std::int64_t latest_ns);
-  /// One line per component with its missing inputs.
+  /// @return one line per component: its name and the inputs for which it waits
   [[nodiscard]] std::string waiting_for() const;
   [[nodiscard]] Component& component(std::size_t index) { return rooms_.at(index).hosted->component(); }
   [[nodiscard]] std::size_t size() const { return rooms_.size(); }
@@ -57,7 +57,7 @@ class InProcessStack {
   void arrived(Room& room);
 
   std::shared_ptr<bus::MemoryNetwork> network_;  ///< null in real time
-  std::mutex mutex_;                             ///< of arrived_
+  std::mutex mutex_;                             ///< protects arrived_
   std::condition_variable arrival_;
   bool arrived_ = false;  ///< a sample has arrived since the last pass of pump()
   std::deque<Room> rooms_;

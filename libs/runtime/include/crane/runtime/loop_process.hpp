@@ -1,7 +1,7 @@
 #pragma once
-/// Runs all components of a control loop in one process in real time: one thread polls the components, which
-/// share one DDS participant. Every component keeps its own writers, source and start-up number, so that
-/// other programs, and the checks of the components themselves, see the same samples as from separate
+/// Runs all components of a control loop in one process in real time. One thread polls the components. The
+/// components share one DDS participant; each has its own writers, readers, source and start-up number.
+/// Therefore other programs and the components themselves receive the same samples as with separate
 /// processes.
 #include <string_view>
 #include <vector>
@@ -13,9 +13,10 @@ namespace crane::runtime {
 /// Program that hosts the whole loop of the simulated plant.
 inline constexpr std::string_view kLoopProgram = "crane_loop";
 
-/// main() of the program. Nothing separates the components: an error in one component ends or corrupts all,
-/// the supervisor and `LastLine` included. Therefore the specs must not contain a component that controls a
-/// real crane (docs/safety.md). @return exit code
+/// main() of the program. An error in one component ends or corrupts all components, including the supervisor
+/// and `LastLine`. Therefore `specs` must not contain a component that controls a real crane
+/// (docs/safety.md).
+/// @return exit code
 int run_loop_process(int argc, char** argv, const std::vector<ComponentSpec>& specs);
 
 }  // namespace crane::runtime

@@ -1,5 +1,5 @@
 #pragma once
-/// Ends a process whose memory grows without bound.
+/// Limits the memory of a process (RLIMIT_DATA).
 #include <cstddef>
 
 namespace crane::runtime {
@@ -8,11 +8,11 @@ namespace crane::runtime {
 /// most of it for the locked stacks of its threads.
 inline constexpr std::size_t kMostGrowth_bytes = std::size_t{512} << 20U;
 
-/// From now on this process can allocate at most kMostGrowth_bytes: later allocations fail, and the process
-/// ends by an exception or by SIGABRT. Every participant, writer and instance on the bus occupies memory of
-/// each process that discovers it, as long as it exists. Without this limit, a program without keys fills the
-/// memory of the computer while the crane holds its position with open brakes. When the process has ended,
-/// its silence stops the crane.
+/// From now on this process can allocate at most kMostGrowth_bytes. Further allocations fail, and the process
+/// ends by an exception or by SIGABRT; its silence then stops the crane. A lower limit of the administrator
+/// remains in force. Reason: every participant, writer and instance on the bus occupies memory of each
+/// process that discovers it. Without a limit, a program without keys could fill the memory of the computer
+/// while the crane holds its position with open brakes.
 /// @throws std::system_error
 void end_when_growing();
 

@@ -48,9 +48,9 @@ struct Candidate {
   /// each window, the gain is visible only after a fit of the starts. All values are within the bounds of
   /// `parameters`.
   std::vector<std::vector<double>> ringing_starts;
-  /// Of a cause that adds a natural frequency of the load: further initial values at which the load has its
-  /// own natural frequency and this one, in Hz. Some values may be outside their bounds. Empty function: the
-  /// cause adds none.
+  /// Of a cause that gives the load a second natural frequency: further initial values. With these values,
+  /// the load has its natural frequency without the cause, and the frequency of the argument, Hz. Some values
+  /// may be outside their bounds. Empty function: the cause adds no natural frequency.
   std::function<std::vector<std::vector<double>>(double)> ringing_starts_at;
   bool rough = false;  ///< true: the loss has steps that slopes do not describe
   /// Of a rough candidate: values of which the fit compares the whole loss before it begins.

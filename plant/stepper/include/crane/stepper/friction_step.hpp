@@ -1,5 +1,5 @@
 #pragma once
-/// One axis over one step with stiff friction: v' = a - g f(v), f nearly odd with a steep step at v = 0.
+/// One step of one axis with stiff friction: v' = a - g f(v). f is nearly odd and has a steep step at v = 0.
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -9,11 +9,12 @@ namespace crane::stepper {
 
 /// m/s or rad/s: below this speed, the steep friction at standstill is integrated implicitly.
 inline constexpr double kImplicitSpeed = 0.004;
-/// m/s or rad/s: a slower axis is at rest. A faster axis that reverses inside a step first comes to rest.
+/// m/s or rad/s: a slower axis is at rest. For a faster axis that reverses inside a step, the step is divided
+/// at the standstill.
 inline constexpr double kRestSpeed = 2e-4;
 
-/// m/s or rad/s: above this speed the simulation has diverged, and rounding would close the bracket of the
-/// root.
+/// m/s or rad/s: above this speed the simulation has diverged. The root is not searched, because rounding
+/// would reduce its bracket to nothing.
 inline constexpr double kDivergedSpeed = 1e6;
 
 struct FrictionStep {
@@ -22,13 +23,13 @@ struct FrictionStep {
   double friction = 0;  ///< mean [V]
 };
 
-/// Root of the increasing v + k f(v) - c.
-/// @param near guess: an axis that sticks keeps its creep speed
+/// Root v of the increasing function v + k f(v) - c.
+/// @param near initial guess: the creep speed of an axis that sticks
 template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
   if (!(std::abs(c) < kDivergedSpeed && std::abs(near) < kDivergedSpeed)) return c;
-  // Its slope is at least 1 where friction grows: |excess| bounds the error of v.
+  // Where the friction increases, the slope of the function is at least 1: |excess| bounds the error of v.
   const auto excess = [&](double v) {
     const double found = v + k * friction(v) - c;
     return std::abs(found) < kExact ? 0.0 : found;

@@ -1,6 +1,6 @@
 #pragma once
-/// Coordinates that sensors measure and the stepper simulates, their kinematics, and access to a State by
-/// Output.
+/// Outputs: the coordinates that sensors measure and that the stepper can simulate. Their kinematics, and
+/// access to the members of a State by Output.
 #include <array>
 #include <cstddef>
 
@@ -9,7 +9,7 @@
 
 namespace crane::stepper {
 
-/// Sensor values that the simulation predicts.
+/// Coordinates that are measured and simulated.
 enum Output : std::size_t { kTrolleyPosition = 0, kSlewAngle = 1, kRadialSwing = 2, kTangentialSwing = 3 };
 inline constexpr std::size_t kOutputs = 4;
 /// Coordinate of each output.
@@ -22,12 +22,12 @@ inline constexpr std::array<std::size_t, kOutputs> kCoordinateOf{
 
 inline constexpr std::array kAllOutputs{kTrolleyPosition, kSlewAngle, kRadialSwing, kTangentialSwing};
 
-/// m or rad, per s, per s2.
+/// Motion of one coordinate: m or rad; m/s or rad/s; m/s2 or rad/s2.
 struct Kinematics {
   double position = 0, rate = 0, acceleration = 0;
 };
 
-/// All measured coordinates at one instant; zeros without a measurement.
+/// Kinematics of all measured coordinates at one instant. A coordinate without a measurement is 0.
 struct MeasuredKinematics {
   std::array<Kinematics, kOutputs> output;
   Kinematics cable;

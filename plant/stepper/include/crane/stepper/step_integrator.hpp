@@ -1,6 +1,6 @@
 #pragma once
-/// Integrates the crane in fixed leapfrog steps (drift-kick-drift, second order). Some outputs are simulated,
-/// the others prescribed as measured.
+/// Integrates the equations of motion of a crane in fixed leapfrog steps (drift-kick-drift, second order).
+/// Some outputs are simulated; the others are prescribed, which means set to measured kinematics.
 #include <array>
 
 #include "crane/plant/model.hpp"
@@ -20,17 +20,17 @@ class StepIntegrator {
 
   plant::State state;
   plant::InnerState inner{};
-  /// Inner coordinates that are prescribed, and their kinematics in the middle of the next step.
+  /// Prescribed inner coordinates, and their kinematics in the middle of the next step.
   std::array<bool, plant::kMostInner> prescribed{};
   std::array<Kinematics, plant::kMostInner> prescribed_at{};
 
   void new_command(const plant::PerAxis& drive_v);
-  /// Advances simulated outputs by one step; `prescribe` sets the others.
-  /// @param at measured, in the middle of the step
+  /// Advances the simulated outputs by one step. prescribe() sets the other outputs.
+  /// @param at measured kinematics in the middle of the step
   void step(const MeasuredKinematics& at);
-  /// Of the model at measured kinematics.
+  /// @return accelerations of the model. The outputs that are not simulated have the kinematics `at`.
   [[nodiscard]] plant::Accelerations accelerations(const MeasuredKinematics& at);
-  /// Sets outputs that are not simulated, and the cable, to measured kinematics.
+  /// Sets the outputs that are not simulated, and the cable, to measured kinematics.
   void prescribe(const MeasuredKinematics& at);
 
  private:
@@ -39,12 +39,13 @@ class StepIntegrator {
   /// Replaces the extrapolated state of prescribed inner coordinates.
   void prescribe_inner(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;
   void kick_inner(const plant::InnerAccelerations& accelerations);
-  /// Applies the friction implicitly, axis by axis, with the last value of the other axis.
+  /// Advances the drives by one step. Friction acts implicitly, axis by axis, with the last friction of the
+  /// other axis. @return mean friction, V
   plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
 
   const plant::Model& model_;
   std::array<bool, kOutputs> simulated_;
-  double h_;
+  double h_;  ///< step, s
   plant::Actuation actuation_;
   std::array<double, kOutputs> last_{};
   std::array<double, plant::kMostInner> last_inner_{};
