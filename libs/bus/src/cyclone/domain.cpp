@@ -49,9 +49,8 @@ std::string configuration(const Options& options) {
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
   const bool network = crosses_network(options);
   const auto heartbeat = std::to_string((network ? kNetworkHeartbeat : kHeartbeat).count()) + "ms";
-  const std::string least = network ? "1ms" : "20ms", most = network ? "1s" : "8s";
-  xml +=
-      "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"" + most + "\">" + heartbeat;
+  const std::string least = network ? "1ms" : "20ms";
+  xml += "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"1s\">" + heartbeat;
   xml += "</HeartbeatInterval><NackDelay>";
   xml += network ? "0s" : "1ms";
   xml += "</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
