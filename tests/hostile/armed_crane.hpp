@@ -8,15 +8,13 @@
 #include <iostream>
 
 #include "../system/running_stack.hpp"
+#include "loop_processes.hpp"
 #include "wire.hpp"
 
 namespace crane::hostile {
 
 using namespace std::chrono_literals;
 using system_test::RunningStack;
-
-inline constexpr const char* kLoop[] = {"plant",      "trajectory_planner",    "tracking",
-                                        "anti_swing", "friction_compensation", "supervisor"};
 
 class ArmedCrane : public testing::Test {
  protected:

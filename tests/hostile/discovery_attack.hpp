@@ -9,6 +9,7 @@
 
 #include "../system/running_stack.hpp"
 #include "forged.hpp"
+#include "loop_processes.hpp"
 #include "wire.hpp"
 
 namespace crane::hostile {
@@ -17,9 +18,6 @@ using namespace std::chrono_literals;
 using system_test::RunningStack;
 
 inline constexpr const char* kDiscoveryRig = "virginia_tech_tower";
-inline constexpr const char* kLoop[] = {"plant",      "trajectory_planner",    "tracking",
-                                        "anti_swing", "friction_compensation", "supervisor"};
-
 class DiscoveryAttack : public testing::Test {
  protected:
   static constexpr std::uint32_t kDomain = 89;
