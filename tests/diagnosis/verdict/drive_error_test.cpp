@@ -1,0 +1,67 @@
+/// Test of the error of a drive against noise and accuracy of the rig file.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "laboratory/amplifier_runs.hpp"
+#include "laboratory/data_of_truth.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+TEST(DriveErrorInWindows, IsExplainedByAnInaccurateRigFile) {
+  for (const std::uint64_t seed : {3, 4}) {
+    SCOPED_TRACE(seed);
+    const DriveError error = error_in(runs_of_axis({}, seed), rig_of_axis());
+    EXPECT_GE(error.rms.size(), 30U);
+    EXPECT_EQ(p_value(error), 1);
+  }
+}
+
+/// The generator's gantry has no friction; its drives have disturbances of up to 0.05 V.
+TEST(DriveErrorInWindows, IsExplainedByADisturbanceOfAnAxisWithoutFriction) {
+  truth::Case request{.rig = "gantry", .effects = {}, .seed = 4, .seconds = 20};
+  const configuration::Rig rig = score::rig_file_of(request.rig);
+  std::vector<diagnosis::Run> runs;
+  for (const truth::Run& run : truth::generate(request).training)
+    for (diagnosis::Run& piece :
+         load_run(recording::parse_csv(truth::csv(run), run.file), rig, run.file).runs)
+      runs.push_back(std::move(piece));
+  EXPECT_EQ(p_value(error_in(std::move(runs), rig)), 1);
+}
+
+TEST(DriveErrorInWindows, IsSignificantIfTheAmplifierLimitsTheRateInFewWindows) {
+  const DriveError error = error_in(runs_of_axis({.rate_vps = 100}, 5), rig_of_axis());
+  EXPECT_LT(p_value(error), 1e-3);
+  std::size_t small = 0;
+  for (std::size_t w = 0; w < error.rms.size(); ++w) small += error.rms[w] < error.expected[w] ? 1 : 0;
+  EXPECT_GT(2 * small, error.rms.size()) << "most windows are explained";
+}
+
+TEST(DriveErrorInWindows, HasTheBinomialPValue) {
+  DriveError error;
+  error.rms.assign(40, 1.0);
+  error.expected.assign(40, 1.0);
+  EXPECT_EQ(p_value(error), 1);
+  constexpr double kOne = 0.0026997960632601866;  // P(|normal| > 3)
+  error.rms[7] = 3.01;
+  EXPECT_NEAR(p_value(error), 1 - std::pow(1 - kOne, 40), 1e-12);
+  error.rms[8] = 3.01;
+  EXPECT_NEAR(p_value(error), 1 - std::pow(1 - kOne, 40) - 40 * kOne * std::pow(1 - kOne, 39), 1e-12);
+}
+
+/// Without the term of a limited rate and the terms that imitate it, the cause is unknown.
+TEST(DriveErrorInWindows, MakesTheVerdictUnknown) {
+  Request request;
+  request.most_effects = 1;
+  request.excluded = {"command_rate_limit", "command_saturation", "actuator_lag", "command_delay",
+                      "backlash"};
+  const Diagnosis found = diagnose(rig_of_axis(), runs_of_axis({.rate_vps = 100}, 6),
+                                   runs_of_axis({.rate_vps = 100}, 7), request);
+  EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
+  EXPECT_NE(found.sentence.find("noise and accuracy of the rig file explain"), std::string::npos)
+      << found.sentence;
+}
+
+}  // namespace
+}  // namespace crane::diagnosis

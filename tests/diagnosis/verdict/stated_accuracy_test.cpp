@@ -1,0 +1,128 @@
+/// Effects within the accuracy of a rig file do not decide the verdict.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "laboratory/strange_lab.hpp"
+#include "study/study.hpp"
+#include "verdict/stated_accuracy.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+configuration::Rig accurate_lab() { return configuration::load_rig(CRANE_RIGS "/gantry.toml"); }
+
+constexpr double kFileRow_s = 0.01, kCount_rad = 1e-3;
+
+/// The command of the file, constant from row to row.
+double file_command(double begin_s, double time_s) {
+  return strange::rich_command(begin_s + kFileRow_s * std::floor(time_s / kFileRow_s + 1e-6));
+}
+
+/// @param delay_s delay of the command between controller and motor
+std::vector<Run> runs_of_gantry(const strange::Gantry& gantry, double delay_s, double begin_s) {
+  const auto delayed = [&](double t) { return file_command(begin_s, std::max(0.0, t - delay_s)); };
+  auto table = strange::recorded(strange::moved(gantry, 24, delayed),
+                                 {.row_s = kFileRow_s, .position_step_m = 1e-6, .swing_step_rad = 1e-5});
+  for (std::size_t row = 0; row < table.columns[0].values.size(); ++row)
+    table.columns[1].values[row] = file_command(begin_s, table.columns[0].values[row]);
+  return load_run(table, accurate_lab(), "gantry.csv").runs;
+}
+
+Diagnosis diagnosed(const strange::Gantry& gantry, double delay_s) {
+  Request request;
+  request.most_effects = 1;
+  return diagnose(accurate_lab(), runs_of_gantry(gantry, delay_s, 0), runs_of_gantry(gantry, delay_s, 40),
+                  request);
+}
+
+double calibrated_value(const Diagnosis& found, const std::string& name) {
+  const auto quantity =
+      std::ranges::find_if(found.calibrated, [&](const Calibrated& one) { return one.name == name; });
+  return quantity == found.calibrated.end() ? std::numeric_limits<double>::quiet_NaN()
+                                            : quantity->parameters.at(0).value;
+}
+
+TEST(StatedAccuracy, MakesNoCauseOfASmallErrorThatAFineSensorShows) {
+  const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.004);
+  EXPECT_EQ(found.verdict, Verdict::none) << found.sentence;
+  EXPECT_EQ(found.sentence, "These data show no error of the model beyond the accuracy of the rig file.");
+  EXPECT_NEAR(calibrated_value(found, "motor_gain"), 1.01, 0.002);
+  EXPECT_NEAR(calibrated_value(found, "command_delay"), 0.004, 0.0005);
+  EXPECT_EQ(found.extension.size(), found.calibrated.size()) << "only the calibrated values";
+}
+
+TEST(StatedAccuracy, LeavesALargeErrorItsNameBesideASmallOne) {
+  const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.03);
+  ASSERT_EQ(found.verdict, Verdict::named) << found.sentence;
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes[0].name, "command_delay");
+  EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.03, 0.002);
+  EXPECT_NEAR(calibrated_value(found, "motor_gain"), 1.01, 0.002);
+  EXPECT_TRUE(std::isnan(calibrated_value(found, "command_delay"))) << "the cause has the whole value";
+}
+
+/// An error of the friction within its accuracy hides no other cause and is not added to its value.
+TEST(StatedAccuracy, KeepsTheValueOfACauseApartFromErrorsOfOtherQuantities) {
+  strange::Gantry gantry;
+  gantry.gain_mps2pv *= 0.985;
+  gantry.cable_m *= 1.3;
+  const Diagnosis found = diagnosed(gantry, 0);
+  ASSERT_EQ(found.verdict, Verdict::parameter) << found.sentence;
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes[0].name, "cable_length");
+  EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.3 * strange::Gantry{}.cable_m, 0.02);
+}
+
+/// Free swings of a load; noise makes the mean of the encoder finer than its count.
+std::vector<Run> free_swings(const std::vector<double>& starts_rad, double offset_rad) {
+  std::vector<Run> runs;
+  for (const double start_rad : starts_rad) {
+    auto truth = strange::moved(
+        {}, 8, [](double) { return 0.0; }, start_rad);
+    for (strange::Instant& instant : truth) instant.swing_rad += offset_rad;
+    const auto table = strange::recorded(
+        truth, {.row_s = kFileRow_s, .swing_step_rad = kCount_rad, .swing_noise_rad = 3e-4});
+    for (Run& run : load_run(table, accurate_lab(), "swing.csv").runs) runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+/// The load hangs somewhere within one count when an incremental encoder is zeroed.
+TEST(StatedAccuracy, ContainsTheErrorOfTheZeroOfAnEncoderUpToHalfACount) {
+  for (const double counts : {0.35, 3.0}) {
+    const double offset_rad = counts * kCount_rad;
+    const Diagnosis found = diagnose(accurate_lab(), free_swings({0.15, -0.1}, offset_rad),
+                                     free_swings({0.12}, offset_rad), {.most_effects = 1, .accuracy = {}});
+    if (counts < 0.5)
+      EXPECT_EQ(found.verdict, Verdict::none) << found.sentence;
+    else
+      EXPECT_TRUE(found.verdict == Verdict::named || found.verdict == Verdict::ambiguous) << found.sentence;
+  }
+}
+
+TEST(StatedAccuracy, ContainsAPatternThatIsSmallBesideTheFriction) {
+  configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/drive_axis.toml");
+  const double gain = rig.plant.trolley_gain_mps2pv;
+  double coulomb_v = 0;
+  for (const plant::TermSetting& term : rig.terms)
+    if (term.name == "drive_friction" && term.axis == "trolley")
+      coulomb_v =
+          std::min(term.parameters.at("coulomb_positive_v"), term.parameters.at("coulomb_negative_v"));
+  ASSERT_GT(coulomb_v, 0);
+  const StatedAccuracy accuracy(rig, kUsualAccuracy), exact(rig, {});
+  Unexplained pattern;
+  pattern.acceleration = 0.04 * coulomb_v * gain;
+  EXPECT_TRUE(accuracy.contains(pattern));
+  EXPECT_FALSE(exact.contains(pattern));
+  pattern.acceleration = 0.06 * coulomb_v * gain;
+  EXPECT_FALSE(accuracy.contains(pattern));
+  pattern.acceleration = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(accuracy.contains(pattern)) << "a line or a jump";
+}
+
+}  // namespace
+}  // namespace crane::diagnosis
