@@ -75,7 +75,8 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
     sources_.push_back({.subscriber = bus.cdr_subscriber(topic, endpoint),
                         .channel = static_cast<std::uint16_t>(i),
                         .holds_events = topic.name == topics::event.description.name,
-                        .lost = lost});
+                        .lost = lost,
+                        .missing = MissingSamples{topic.every_tick}});
   }
   thread_ = std::make_unique<RecordingThread>(std::move(files), options.queue_capacity);
 }
@@ -83,8 +84,7 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
 bool Recorder::poll() {
   for (auto& source : sources_) {
     take_all(source);
-    note_losses(source);
-    note_gaps(source, false);
+    note_losses(source, false);
   }
   report();
   announce_warnings();
@@ -94,10 +94,7 @@ bool Recorder::poll() {
 }
 
 bool Recorder::close() {
-  for (auto& source : sources_) {
-    note_losses(source);
-    note_gaps(source, true);
-  }
+  for (auto& source : sources_) note_losses(source, true);
   thread_->close();
   announce_warnings();
   if (!thread_->failure()) return true;
@@ -113,7 +110,7 @@ void Recorder::take_all(Source& source) {
     if (!source.heard) {
       // A vendor may report samples that were published before the reader joined as lost.
       source.heard = true;
-      source.lost_noted = *source.lost;
+      source.lost_seen = *source.lost;
     }
     count_gap(source, *header);
     heard_others_ = heard_others_ || header->source != crane_SOURCE_RECORDER;
@@ -128,34 +125,25 @@ void Recorder::take_all(Source& source) {
   }
 }
 
-void Recorder::note_losses(Source& source) {
-  const auto note = [&](std::uint64_t& noted, std::uint64_t total, recording::LossCause cause) {
-    if (total <= noted) return;
-    thread_->lose(source.channel, cause, total - noted, log_time_ns());
-    const auto in_gap = std::min(total - noted, source.gap);
-    source.gap -= in_gap;
-    source.explained += total - noted - in_gap;
-    noted = total;
+void Recorder::note_losses(Source& source, bool all) {
+  const auto now_ns = log_time_ns();
+  const auto pass = [&](recording::LossCause cause, std::uint64_t& seen, std::uint64_t total) {
+    if (total > seen) source.missing.report(cause, total - seen, now_ns);
+    seen = std::max(seen, total);
   };
-  if (source.heard) note(source.lost_noted, *source.lost, recording::LossCause::dds_lost);
-  note(source.rejected_noted, source.subscriber.counts().rejected, recording::LossCause::wrong_crc);
+  if (source.heard) pass(recording::LossCause::dds_lost, source.lost_seen, *source.lost);
+  pass(recording::LossCause::wrong_crc, source.rejected_seen, source.subscriber.counts().rejected);
+  for (const auto& found : source.missing.take(now_ns, all))
+    thread_->lose(source.channel, found.cause, found.samples, found.time_ns);
 }
 
 void Recorder::count_gap(Source& source, const msg::Header& header) {
-  const bool continues = source.subscriber.topic().every_tick && source.last.epoch == header.epoch &&
-                         source.last.source == header.source && header.tick > source.last.tick;
-  const auto absent = continues ? header.tick - source.last.tick - 1 : 0;
-  source.last = header;
-  if (absent == 0) return;
-  const auto explained = std::min(absent, std::exchange(source.explained, 0));
-  source.gap += absent - explained;
-  source.gap_ns = log_time_ns();
-}
-
-void Recorder::note_gaps(Source& source, bool all) {
-  constexpr std::int64_t kReport_ns = 1'000'000'000;  // longest time until DDS reports the loss of a gap
-  if (source.gap == 0 || (!all && log_time_ns() - source.gap_ns < kReport_ns)) return;
-  thread_->lose(source.channel, recording::LossCause::tick_gap, std::exchange(source.gap, 0), source.gap_ns);
+  const auto last = std::exchange(source.last, header);
+  if (!source.subscriber.topic().every_tick) return;
+  if (last.epoch != header.epoch || last.source != header.source)
+    source.missing.begin_writer();
+  else if (header.tick > last.tick)
+    source.missing.gap(header.tick - last.tick - 1, log_time_ns());
 }
 
 void Recorder::announce_warnings() {

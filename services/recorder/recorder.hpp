@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "crane/runtime/node.hpp"
+#include "recorder/missing_samples.hpp"
 #include "recorder/recording_thread.hpp"
 
 namespace crane::recorder {
@@ -50,18 +51,15 @@ class Recorder {
     bool holds_events;
     std::shared_ptr<const std::atomic<std::uint64_t>> lost;  ///< as DDS reports it
     bool heard = false;                                      ///< a sample has arrived
-    std::uint64_t lost_noted = 0, rejected_noted = 0;        ///< in the recording
-    msg::Header last{};                                      ///< of the last sample
-    std::uint64_t gap = 0;        ///< ticks without a sample that no other loss has explained yet
-    std::uint64_t explained = 0;  ///< samples noted as lost before their gap was seen
-    std::int64_t gap_ns = 0;      ///< log time at which the last gap was seen
+    std::uint64_t lost_seen = 0, rejected_seen = 0;          ///< passed to `missing`
+    MissingSamples missing;
+    msg::Header last{};  ///< of the last sample
   };
   void take_all(Source& source);
-  void note_losses(Source& source);
   /// Counts the ticks between the last sample and this one of the same writer.
   void count_gap(Source& source, const msg::Header& header);
-  /// Notes the gaps of the ticks that no other loss has explained. @param all  also those of the last second
-  void note_gaps(Source& source, bool all);
+  /// Notes the missing samples. @param all  also those of the last second, whose cause may still arrive
+  void note_losses(Source& source, bool all);
   void report();
   void announce_failure();
   void announce_warnings();
