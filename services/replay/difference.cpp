@@ -18,7 +18,7 @@ using Bytes = std::span<const std::uint8_t>;
 using Field = bus::CdrCodec::Field;
 
 /// The C struct of a sample; empty when the bytes are no valid sample.
-std::vector<std::uint8_t> decoded(const bus::CdrCodec& codec, Bytes cdr) {
+std::vector<std::uint8_t> struct_of(const bus::CdrCodec& codec, Bytes cdr) {
   std::vector<std::uint8_t> sample(codec.sample_bytes());
   const bool valid = cdr.size() >= bus::kEncapsulation_bytes &&
                      codec.decode(cdr.subspan(bus::kEncapsulation_bytes), false, sample.data());
@@ -73,7 +73,7 @@ std::optional<FieldDifference> first_difference(const topics::Description& topic
                                                 Bytes replayed) {
   if (std::ranges::equal(recorded, replayed)) return std::nullopt;
   const auto& codec = bus::CdrCodec::of(*topic.descriptor);
-  const auto ours = decoded(codec, replayed), theirs = decoded(codec, recorded);
+  const auto ours = struct_of(codec, replayed), theirs = struct_of(codec, recorded);
   if (ours.empty() || theirs.empty())
     return FieldDifference{"", theirs.empty() ? "not a valid sample" : "a valid sample",
                            ours.empty() ? "not a valid sample" : "a valid sample"};

@@ -1,7 +1,7 @@
 #include "replay/recorded_run.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <optional>
 
 #include "crane/bus/cdr.hpp"
@@ -16,11 +16,6 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-const topics::Description* topic_named(std::string_view name) {
-  const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
-  return found == topics::kAll.end() ? nullptr : &*found;
-}
-
 bool is_input(const topics::Description& topic) {
   return topic.name == topics::request.description.name || topic.name == topics::jog.description.name;
 }
@@ -31,15 +26,17 @@ recording::Metadata origin_of(recording::McapReader& reader) {
   return {};
 }
 
-/// The header is the first field of every topic; its first value is the tick.
-std::optional<std::uint64_t> tick_of(recording::Bytes cdr) {
-  std::uint64_t tick = 0;
-  if (cdr.size() < bus::kEncapsulation_bytes + sizeof tick) return std::nullopt;
-  std::memcpy(&tick, cdr.data() + bus::kEncapsulation_bytes, sizeof tick);
-  return tick;
+}  // namespace
+
+const topics::Description* topic_named(std::string_view name) {
+  const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
+  return found == topics::kAll.end() ? nullptr : &*found;
 }
 
-}  // namespace
+std::optional<std::uint64_t> tick_of(std::span<const std::uint8_t> cdr) {
+  const auto header = header_of(cdr);
+  return header ? std::optional{header->tick} : std::nullopt;
+}
 
 RecordedRun::RecordedRun(const std::filesystem::path& file)
     : file_{file.string()}, reader_{file}, origin_{origin_of(reader_)} {
@@ -48,33 +45,38 @@ RecordedRun::RecordedRun(const std::filesystem::path& file)
   if (const auto version = recording::messages_version(reader_); version != crane_MESSAGES_VERSION)
     refuse("messages of version " + std::to_string(version.value_or(1)) + ", this program has version " +
            std::to_string(crane_MESSAGES_VERSION));
-  const auto clock = origin_.find("clock");
-  if (clock == origin_.end() || clock->second != "lockstep")
-    refuse(
-        "clock: no recording in lockstep (metadata crane.clock); the recorder stores samples in the order of "
-        "their arrival, so that the recording does not show which samples a component had; `crane run` "
-        "writes recordings in lockstep");
+  // A recording of `crane run` states the clock and the controller, one of a recorder does not.
+  if (problems.empty() && !origin_.contains("clock")) arrivals_.emplace(reader_);
   const auto attachments = reader_.attachments();
   const auto rig = std::ranges::find(attachments, "rig.toml", &recording::AttachmentRecord::name);
   if (rig == attachments.end()) {
     refuse("rig.toml: no such attachment");
   } else {
     try {
-      rig_ = configuration::parse_rig({rig->data.begin(), rig->data.end()}, file_ + ": rig.toml");
+      rig_text_ = {rig->data.begin(), rig->data.end()};
+      rig_ = configuration::parse_rig(rig_text_, file_ + ": rig.toml");
     } catch (const configuration::ConfigurationError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  const auto name = origin_.find("controller");
-  controller_ = name == origin_.end() ? nullptr : control::find_controller(name->second);
-  if (name == origin_.end())
-    refuse("controller: missing in the metadata crane");
+  const auto stated = origin_.find("controller");
+  const auto name = stated != origin_.end() ? stated->second : arrivals_ ? arrivals_->controller() : "";
+  controller_ = control::find_controller(name);
+  if (name.empty())
+    refuse("controller: missing, neither the metadata crane nor a sample of crane/node states it");
   else if (controller_ == nullptr)
-    refuse("controller = " + name->second + ": this program has no such controller");
+    refuse("controller = " + name + ": this program has no such controller");
   if (!problems.empty()) throw Refusal(joined(problems));
 }
 
 void RecordedRun::for_each(const std::function<bool(const RecordedTick&)>& visit) {
+  if (arrivals_)
+    arrivals_->for_each(std::llround(rig_.period_s * 1e9), visit);
+  else
+    for_each_in_order(visit);
+}
+
+void RecordedRun::for_each_in_order(const std::function<bool(const RecordedTick&)>& visit) {
   RecordedTick tick;
   std::optional<std::uint32_t> sequence;  // of the messages of `tick`
   bool goes_on = true;

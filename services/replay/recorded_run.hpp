@@ -1,10 +1,10 @@
 #pragma once
-/// A recording of a run in lockstep: what the stack received and published in each tick, and how the stack
-/// was made.
+/// A recorded run: what the stack received and published in each tick, and how the stack was made. `crane
+/// run` writes the samples in the order of the ticks; a recorder writes them in the order of their arrival.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,7 +12,8 @@
 #include "crane/configuration/rig.hpp"
 #include "crane/control/law.hpp"
 #include "crane/recording/mcap_reader.hpp"
-#include "crane/topics.hpp"
+#include "replay/arrival_order.hpp"
+#include "replay/recorded_tick.hpp"
 
 namespace crane::replay {
 
@@ -20,24 +21,6 @@ namespace crane::replay {
 class Refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// A sample as plain CDR with its encapsulation header.
-using Cdr = std::vector<std::uint8_t>;
-
-struct Received {
-  const topics::Description* topic;
-  Cdr cdr;
-};
-
-struct RecordedTick {
-  std::uint64_t number = 0;
-  std::vector<Received> inputs;             ///< of operators, before the state of this tick, in their order
-  std::map<std::string_view, Cdr> samples;  ///< by name of the topic; loop topics only
-  [[nodiscard]] const Cdr* find(const topics::Description& topic) const {
-    const auto found = samples.find(topic.name);
-    return found == samples.end() ? nullptr : &found->second;
-  }
 };
 
 class RecordedRun {
@@ -49,16 +32,32 @@ class RecordedRun {
   [[nodiscard]] const control::Controller& controller() const { return *controller_; }
   [[nodiscard]] const recording::Metadata& origin() const { return origin_; }  ///< metadata record "crane"
 
+  /// True: a recorder has written the recording. Samples may be missing, and the processes have random
+  /// start-up numbers.
+  [[nodiscard]] bool by_recorder() const { return arrivals_.has_value(); }
+  /// Text of the rig file.
+  [[nodiscard]] const std::string& rig_text() const { return rig_text_; }
+
   /// Calls `visit` for each tick with a sample of a loop topic, until `visit` returns false.
-  /// @throws Refusal when a topic has two samples of one tick
+  /// @throws Refusal when a topic has two samples of one tick in a recording of `crane run`
   void for_each(const std::function<bool(const RecordedTick&)>& visit);
+  /// As ArrivalOrder::assumed_ticks(); after for_each().
+  [[nodiscard]] std::uint64_t assumed_ticks() const { return arrivals_ ? arrivals_->assumed_ticks() : 0; }
+  /// Requests that the recording lacks and its statuses show, one line each; after for_each().
+  [[nodiscard]] std::vector<std::string> derived_requests() const {
+    return arrivals_ ? arrivals_->derived() : std::vector<std::string>{};
+  }
   /// Damage found so far (McapReader::problems()).
   [[nodiscard]] const std::vector<std::string>& problems() const { return reader_.problems(); }
 
  private:
+  void for_each_in_order(const std::function<bool(const RecordedTick&)>& visit);
+
   std::string file_;
   recording::McapReader reader_;
   recording::Metadata origin_;
+  std::optional<ArrivalOrder> arrivals_;
+  std::string rig_text_;
   configuration::Rig rig_;
   const control::Controller* controller_ = nullptr;
 };

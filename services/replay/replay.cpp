@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdio>
 
-#include "crane/bus/cdr.hpp"
 #include "crane/bus/seal.hpp"
 #include "replay/replayed_stack.hpp"
 #include "stack/stack.hpp"
@@ -18,22 +17,20 @@ const std::array kCompared{&topics::reference.description,  &topics::tracking.de
 
 std::optional<msg::State> state_of(const RecordedTick& tick) {
   const auto* cdr = tick.find(topics::state.description);
-  msg::State state{};
-  if (cdr == nullptr || !bus::CdrCodec::of(*topics::state.description.descriptor)
-                             .decode(std::span{*cdr}.subspan(bus::kEncapsulation_bytes), false, &state))
-    return std::nullopt;
-  return state;
+  return cdr == nullptr ? std::nullopt : decoded(topics::state, *cdr);
 }
 
 class Comparison {
  public:
-  Comparison(RecordedRun& run, std::span<const runtime::ComponentSpec> components)
-      : run_{run}, stack_{components, run.rig(), run.controller()} {}
+  Comparison(RecordedRun& run, ReplayedStack& stack) : run_{run}, stack_{stack} {}
 
   Result make() {
     run_.for_each([this](const RecordedTick& tick) { return add(tick); });
     if (next_ == 0 && !result_.first) throw Refusal("no tick of the recording can be replayed" + damage());
+    result_.by_recorder = run_.by_recorder();
     result_.equal_ticks = next_;
+    result_.assumed_ticks = run_.assumed_ticks();
+    result_.derived_requests = run_.derived_requests();
     result_.problems = run_.problems();
     result_.origin = run_.origin();
     return result_;
@@ -45,13 +42,17 @@ class Comparison {
     if (next_ == 0 && tick.number != 0)
       throw Refusal("the recording begins with tick " + std::to_string(tick.number) +
                     "; a replay needs tick 0, because the components have memory" + damage());
+    if (!tick.ends.empty()) {
+      result_.ends = "tick " + std::to_string(tick.number) + ": " + tick.ends;
+      return false;
+    }
     const auto state = tick.number == next_ ? state_of(tick) : std::nullopt;
     if (!state) return misses(topics::state.description);
     time_s_ = static_cast<double>(state->header.sample_time_ns) / 1e9;
     if (!is_intact(*state)) return false;
     if (!stack_.receive(tick)) throw Refusal("tick " + std::to_string(next_) + ": a sample is not valid");
     for (const auto* topic : kCompared)
-      if (!is_equal(*topic, tick)) return false;
+      if (!tick.assumed && !is_equal(*topic, tick)) return false;
     stack_.forget_until(next_++);
     return true;
   }
@@ -69,10 +70,17 @@ class Comparison {
   bool is_equal(const topics::Description& topic, const RecordedTick& tick) {
     const auto* recorded = tick.find(topic);
     const auto* replayed = stack_.find(topic, next_);
-    if (recorded == nullptr) return misses(topic);
+    if (recorded == nullptr) return run_.by_recorder() ? is_not_recorded() : misses(topic);
     if (replayed == nullptr) return differs(topic, {"", "a sample", "no sample"});
-    const auto found = first_difference(topic, *recorded, *replayed);
+    const auto header = run_.by_recorder() ? header_of(*recorded) : std::nullopt;
+    const auto found =
+        first_difference(topic, *recorded, header ? with_epoch(topic, *replayed, header->epoch) : *replayed);
     return !found || differs(topic, *found);
+  }
+
+  bool is_not_recorded() {
+    ++result_.not_recorded;
+    return true;
   }
 
   bool differs(const topics::Description& topic, FieldDifference what) {
@@ -94,7 +102,7 @@ class Comparison {
   }
 
   RecordedRun& run_;
-  ReplayedStack stack_;
+  ReplayedStack& stack_;
   Result result_;
   std::uint64_t next_ = 0;  ///< tick
   double time_s_ = 0;
@@ -110,7 +118,14 @@ std::vector<runtime::ComponentSpec> loop_components() {
 
 Result replay(const std::filesystem::path& file, std::span<const runtime::ComponentSpec> components) {
   RecordedRun run{file};
-  return Comparison{run, components}.make();
+  InProcessReplay stack{components, run.rig(), run.controller()};
+  return Comparison{run, stack}.make();
+}
+
+Result replay_in_processes(const std::filesystem::path& file, const ProcessOptions& options) {
+  RecordedRun run{file};
+  ProcessReplay stack{loop_components(), run, options};
+  return Comparison{run, stack}.make();
 }
 
 std::string sentence(const Difference& difference) {

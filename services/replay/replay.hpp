@@ -1,6 +1,7 @@
 #pragma once
 /// Replays a recording in lockstep: the components of the stack receive the recorded samples of clock master
-/// and operators, and everything they publish must equal the recording, bit for bit.
+/// and operators, and everything they publish must equal the recording, bit for bit. The start-up numbers of
+/// the processes in a recording of the recorder are random and are not compared.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "crane/runtime/wiring.hpp"
 #include "replay/difference.hpp"
+#include "replay/process_stack.hpp"
 #include "replay/recorded_run.hpp"
 
 namespace crane::replay {
@@ -21,8 +23,13 @@ struct Difference {
 };
 
 struct Result {
-  std::uint64_t equal_ticks = 0;    ///< ticks from 0 on in which every compared sample is equal
-  std::optional<Difference> first;  ///< first difference, in the order of the data flow
+  bool by_recorder = false;                   ///< as RecordedRun::by_recorder()
+  std::uint64_t equal_ticks = 0;              ///< ticks from 0 on in which every compared sample is equal
+  std::optional<Difference> first;            ///< first difference, in the order of the data flow
+  std::string ends;                           ///< not empty: why the replay ends after equal_ticks
+  std::uint64_t assumed_ticks = 0;            ///< as RecordedRun::assumed_ticks(); part of equal_ticks
+  std::uint64_t not_recorded = 0;             ///< compared samples that the recorder did not receive
+  std::vector<std::string> derived_requests;  ///< as RecordedRun::derived_requests()
   std::vector<std::string>
       problems;                /// damage of the recording; the replay ends before the first damaged tick
   recording::Metadata origin;  ///< of the recording: rig, controller, scenario, version ...
@@ -34,6 +41,8 @@ struct Result {
 /// @param components  replayed components. @throws recording::ReadError, Refusal
 [[nodiscard]] Result replay(const std::filesystem::path& file,
                             std::span<const runtime::ComponentSpec> components);
+/// As above, with one process for each component over DDS. @throws std::runtime_error when a process ends
+[[nodiscard]] Result replay_in_processes(const std::filesystem::path& file, const ProcessOptions& options);
 
 /// "crane/demand of tick 512 (5.12 s): total_v[0]: recorded 1.25, replayed 1.5"
 [[nodiscard]] std::string sentence(const Difference& difference);

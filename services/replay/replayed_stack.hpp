@@ -1,66 +1,48 @@
 #pragma once
-/// The components of a stack without its clock master. They receive recorded samples over a memory bus.
-#include <map>
-#include <memory>
+/// The components of a stack without its clock master. They receive recorded samples: in this process over a
+/// memory bus, or as processes over DDS (process_stack.hpp).
 #include <span>
 #include <string>
-#include <vector>
 
-#include "crane/bus/bus.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "replay/recorded_run.hpp"
+#include "replay/recorded_writers.hpp"
+#include "replay/replayed_outputs.hpp"
 
 namespace crane::replay {
 
 class ReplayedStack {
  public:
-  /// @param rig, controller  outlive the stack
-  ReplayedStack(std::span<const runtime::ComponentSpec> components, const configuration::Rig& rig,
-                const control::Controller& controller);
-
+  virtual ~ReplayedStack() = default;
   /// Delivers the inputs of operators, then crane/state, then crane/supervisor when no component of the stack
   /// writes this topic. Afterwards all components wait for the next tick. @return false when a sample
   /// cannot be decoded
-  [[nodiscard]] bool receive(const RecordedTick& tick);
+  [[nodiscard]] virtual bool receive(const RecordedTick& tick) = 0;
   /// @return what the stack has published; nothing when it has published no sample of the tick
-  [[nodiscard]] const Cdr* find(const topics::Description& topic, std::uint64_t tick) const;
-  void forget_until(std::uint64_t tick);
-  /// The missing inputs of each component.
-  [[nodiscard]] std::string waiting_for() const { return stack_.waiting_for(); }
+  [[nodiscard]] virtual const Cdr* find(const topics::Description& topic, std::uint64_t tick) const = 0;
+  virtual void forget_until(std::uint64_t tick) = 0;
+};
+
+class InProcessReplay final : public ReplayedStack {
+ public:
+  /// @param rig, controller  outlive the stack
+  InProcessReplay(std::span<const runtime::ComponentSpec> components, const configuration::Rig& rig,
+                  const control::Controller& controller);
+  [[nodiscard]] bool receive(const RecordedTick& tick) override;
+  [[nodiscard]] const Cdr* find(const topics::Description& topic, std::uint64_t tick) const override {
+    return outputs_.find(topic, tick);
+  }
+  void forget_until(std::uint64_t tick) override { outputs_.forget_until(tick); }
 
  private:
-  /// A writer outside the stack. Its samples have its source and start-up number.
-  template <class T>
-  struct Outside {
-    bus::Bus bus;
-    bus::Publisher<T> publisher;
-  };
-  /// All samples of one client come from one participant: the supervisor accepts crane/jog from the
-  /// participant that requested the session.
-  struct Operator {
-    bus::Bus bus;
-    bus::Publisher<msg::Request> requests;
-    bus::Publisher<msg::Jog> jogs;
-  };
-  struct Output {
-    bus::CdrSubscriber reader;
-    std::map<std::uint64_t, Cdr> samples;  ///< by tick
-  };
-  [[nodiscard]] bus::Bus bus_of(const msg::Header& header, const std::string& name) const;
-  [[nodiscard]] Operator& operator_of(const msg::Header& header, const std::string& client);
-  template <class T>
-  bool publish(std::unique_ptr<Outside<T>>& outside, const topics::Topic<T>& topic, const Cdr& cdr);
-  bool deliver(const Received& input);
   void run();
 
   runtime::InProcessStack stack_;
   std::uint32_t configuration_;  ///< of the replayed components
+  bool has_supervisor_;          ///< true: the supervisor is a component of the stack
   bus::Bus bus_;
-  std::map<std::string_view, Output> outputs_;
-  std::unique_ptr<Outside<msg::State>> clock_master_;
-  std::unique_ptr<Outside<msg::SupervisorStatus>> supervisor_;
-  bool has_supervisor_;  ///< true: the supervisor is a component of the stack
-  std::map<std::string, Operator> operators_;
+  ReplayedOutputs outputs_;
+  RecordedWriters writers_;
 };
 
 }  // namespace crane::replay

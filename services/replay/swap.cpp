@@ -1,9 +1,10 @@
 #include "replay/swap.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
-#include "crane/bus/cdr.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/runtime/process.hpp"
 #include "crane/supervisor/component.hpp"
@@ -14,11 +15,7 @@ namespace crane::replay {
 namespace {
 
 std::optional<msg::Demand> demand_of(const Cdr* cdr) {
-  msg::Demand demand{};
-  if (cdr == nullptr || !bus::CdrCodec::of(*topics::demand.description.descriptor)
-                             .decode(std::span{*cdr}.subspan(bus::kEncapsulation_bytes), false, &demand))
-    return std::nullopt;
-  return demand;
+  return cdr == nullptr ? std::nullopt : decoded(topics::demand, *cdr);
 }
 
 /// The components that compute the demand. The supervisor is not one of them, because it would compare the
@@ -52,18 +49,23 @@ class Swap {
   SwapResult make() {
     run_.for_each([this](const RecordedTick& tick) { return add(tick); });
     if (result_.ticks == 0) throw Refusal("the recording does not begin with a complete tick 0");
-    result_.problems = run_.problems();
+    std::ranges::copy(run_.problems(), std::back_inserter(result_.problems));
     return std::move(result_);
   }
 
  private:
   bool add(const RecordedTick& tick) {
-    if (tick.number != result_.ticks || !stack_.receive(tick)) return false;
+    if (tick.assumed) return true;  // without the recorded status of the supervisor
+    if (!tick.ends.empty())
+      result_.problems.push_back("tick " + std::to_string(tick.number) + ": " + tick.ends);
+    const bool follows = tick.number == run_.assumed_ticks() + result_.ticks;
+    if (!tick.ends.empty() || !follows || !stack_.receive(tick)) return false;
     const auto recorded = demand_of(tick.find(topics::demand.description));
     const auto other = demand_of(stack_.find(topics::demand.description, tick.number));
     if (!recorded || !other) return false;
     note(*recorded, *other);
-    stack_.forget_until(result_.ticks++);
+    stack_.forget_until(tick.number);
+    ++result_.ticks;
     return true;
   }
 
@@ -86,7 +88,7 @@ class Swap {
   }
 
   RecordedRun& run_;
-  ReplayedStack stack_;
+  InProcessReplay stack_;
   SwapResult result_;
 };
 

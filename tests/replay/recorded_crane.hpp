@@ -39,6 +39,14 @@ class RecordedCrane {
                   experiments::started_rig_text(rig_));
   }
 
+  /// Network of the stack, for a recorder. @param poll  called after every tick
+  const std::shared_ptr<bus::MemoryNetwork>& observed_by(std::function<void()> poll) {
+    poll_ = std::move(poll);
+    return stack_.network();
+  }
+
+  [[nodiscard]] std::string rig_text() const { return experiments::started_rig_text(rig_); }
+
   void tick() {
     const auto until = std::max<std::uint64_t>(next_, 1);  // the plant starts with two ticks
     operator_.send({.kind = crane_REQUEST_ADVANCE, .until_tick = until});
@@ -47,6 +55,7 @@ class RecordedCrane {
       while (samples_.poll(0) == runtime::JoinResult::complete) log_tick();
       ASSERT_TRUE(worked || next_ > until) << stack_.waiting_for();
     }
+    if (poll_) poll_();
   }
   void run(double seconds) {
     for (auto left = std::lround(seconds / rig_.period_s); left > 0; --left) tick();
@@ -120,6 +129,7 @@ class RecordedCrane {
     return sample;
   }
 
+  std::function<void()> poll_;
   configuration::Rig rig_;
   const control::Controller& controller_;
   experiments::TickLog log_;

@@ -13,6 +13,7 @@
 #include "crane/plant/coordinates.hpp"
 #include "replay/replay.hpp"
 #include "replay/swap.hpp"
+#include "stack/launch.hpp"
 
 namespace crane::cli {
 namespace {
@@ -20,7 +21,10 @@ namespace {
 struct ReplayOptions {
   std::filesystem::path file, out;
   std::string swap;
-  bool json = false, force = false;
+  bool json = false, force = false, processes = false;
+  std::string vendor = "cyclone";
+  std::vector<std::string> vendors;
+  std::uint32_t domain = 0;
 };
 
 void print_problems(const std::vector<std::string>& problems) {
@@ -37,12 +41,41 @@ nlohmann::ordered_json to_json(const replay::Result& found) {
                                 {"field", found.first->what.field},
                                 {"recorded", found.first->what.recorded},
                                 {"replayed", found.first->what.replayed}};
+  if (!found.ends.empty()) json["ends"] = found.ends;
+  json["assumed_ticks"] = found.assumed_ticks;
+  json["not_recorded_samples"] = found.not_recorded;
+  json["derived_requests"] = found.derived_requests;
   json["problems"] = found.problems;
   return json;
 }
 
+replay::Result result_of(const ReplayOptions& options) {
+  if (!options.processes) return replay::replay(options.file, replay::loop_components());
+  replay::ProcessOptions processes;
+  processes.bus.vendor = options.vendor;
+  processes.bus.domain = options.domain;
+  processes.vendors = stack::vendors_from(options.vendors, replay::loop_components());
+  return replay::replay_in_processes(options.file, processes);
+}
+
+/// What the replay has not compared, and why.
+void print_remarks(const replay::Result& found) {
+  print_problems(found.problems);
+  if (!found.problems.empty())
+    std::cerr << "the recording is damaged: the replay ends after tick " << found.equal_ticks - 1 << '\n';
+  if (!found.ends.empty()) std::cerr << "the replay ends before " << found.ends << '\n';
+  if (found.assumed_ticks > 0)
+    std::cerr
+        << "the first " << found.assumed_ticks
+        << " ticks are not in the recording: the replay assumes that the crane rested as in the next one\n";
+  if (found.not_recorded > 0)
+    std::cerr << found.not_recorded << " samples are not in the recording and were not compared\n";
+  for (const auto& request : found.derived_requests)
+    std::cerr << "not in the recording, derived from crane/reply and crane/supervisor: " << request << '\n';
+}
+
 int compare(const ReplayOptions& options) {
-  const auto found = replay::replay(options.file, replay::loop_components());
+  const auto found = result_of(options);
   const auto ticks = std::to_string(found.equal_ticks) + " ticks";
   if (options.json)
     std::cout << to_json(found).dump(2) << '\n';
@@ -51,9 +84,7 @@ int compare(const ReplayOptions& options) {
   else
     std::cout << "equal bit for bit for " << ticks << ", then different: " << replay::sentence(*found.first)
               << '\n';
-  print_problems(found.problems);
-  if (!found.problems.empty())
-    std::cerr << "the recording is damaged: the replay ends after tick " << found.equal_ticks - 1 << '\n';
+  print_remarks(found);
   return found.first ? runtime::kExitFailed : runtime::kExitDone;
 }
 
@@ -137,7 +168,8 @@ void add_replay(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ReplayOptions>();
   auto* command = app.add_subcommand(
       "replay", "Repeat a recorded run with the present programs, and compare every sample bit for bit");
-  command->add_option("FILE", options->file, "recording of crane run (.mcap)")
+  command
+      ->add_option("FILE", options->file, "recording of crane run, crane record or crane up --record (.mcap)")
       ->required()
       ->check(existing_recording());
   command->add_option("--swap", options->swap,
@@ -145,13 +177,30 @@ void add_replay(CLI::App& app, Action& chosen) {
                       "states, and write a CSV file");
   command->add_option("--out", options->out,
                       "CSV file of --swap; default: FILE with the name of the controller and .csv");
+  auto* processes =
+      command->add_flag("--processes", options->processes,
+                        "one process for each component, over DDS; default: one process for all");
+  command->add_option("--dds", options->vendor, "DDS vendor of the processes")
+      ->check(CLI::IsMember({"cyclone", "fastdds"}))
+      ->needs(processes)
+      ->capture_default_str();
+  command
+      ->add_option("--dds-for", options->vendors,
+                   "NAME=VENDOR: vendor of one process, for example "
+                   "supervisor=fastdds; may be repeated")
+      ->needs(processes);
+  command->add_option("--domain", options->domain, "DDS domain of the processes")
+      ->check(CLI::Range(0, 100))
+      ->needs(processes)
+      ->capture_default_str();
   command->add_flag("--force", options->force, "overwrite the CSV file");
   command->add_flag("--json", options->json, "one JSON object");
   command->footer(
       "Examples: crane replay out/recording.mcap\n"
+      "          crane replay run.mcap --processes --dds fastdds\n"
       "          crane replay out/recording.mcap --swap controller=delayed_1\n"
       "Exit code 1 when a sample differs: the output names tick, topic, field and both values.\n"
-      "Only recordings in lockstep can be replayed (docs/data.md).");
+      "The recording must begin with tick 0 (docs/data.md).");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -1,0 +1,64 @@
+#pragma once
+/// A recording of the recorder: its samples are in the order of their arrival at the recorder. The samples of
+/// the loop state their tick. The reply to a request states the tick in which the supervisor executed the
+/// request.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crane/recording/mcap_reader.hpp"
+#include "replay/recorded_tick.hpp"
+
+namespace crane::replay {
+
+class ArrivalOrder {
+ public:
+  /// Reads requests, replies and statuses. @throws recording::ReadError
+  explicit ArrivalOrder(recording::McapReader& reader);
+
+  /// Controller that the processes report on crane/node; empty: no process reports one.
+  [[nodiscard]] const std::string& controller() const { return controller_; }
+  /// Calls `visit` for each tick in the order of the ticks, until `visit` returns false. The last visited
+  /// tick has RecordedTick::ends when a replay cannot go on.
+  void for_each(std::int64_t period_ns, const std::function<bool(const RecordedTick&)>& visit);
+  /// Ticks before the first recorded one, in which the crane rested as in this one.
+  [[nodiscard]] std::uint64_t assumed_ticks() const { return assumed_; }
+  /// Requests that were derived from the statuses of the supervisor, one line each.
+  [[nodiscard]] const std::vector<std::string>& derived() const { return derived_; }
+
+ private:
+  struct Jog {
+    std::int64_t sent_ns;  ///< clock of the writer
+    msg::Jog sample;
+    Cdr cdr;
+  };
+  struct Gathered {
+    RecordedTick tick;
+    std::int64_t decided_ns = 0;  ///< time at which the supervisor published its status; clock of the writer
+  };
+  void note(const recording::Message& message);
+  void gather(const recording::Message& message, const topics::Description& topic);
+  void complete(Gathered& gathered);
+  /// Visits the ticks before the first recorded one if the stack has just started.
+  bool assume_before(const RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit);
+  void add_requests(RecordedTick& tick, const msg::SupervisorStatus& status);
+  void add_jogs(Gathered& gathered, const msg::SupervisorStatus& status);
+
+  recording::McapReader& reader_;
+  std::int64_t period_ns_ = 0;
+  std::string controller_;
+  std::map<std::pair<std::string, std::uint64_t>, Cdr> requests_;  ///< by client and id
+  std::map<std::uint64_t, std::vector<msg::Reply>> replies_;       ///< of the supervisor, by tick
+  std::vector<Jog> jogs_;
+  std::size_t next_jog_ = 0;
+  std::map<std::uint64_t, Gathered> ticks_;           ///< not visited yet
+  std::map<std::string_view, std::uint32_t> epochs_;  ///< of the writers, by topic
+  std::optional<msg::SupervisorStatus> before_;       ///< status of the previous tick
+  std::vector<std::string> derived_;
+  std::uint64_t assumed_ = 0;
+};
+
+}  // namespace crane::replay

@@ -1,0 +1,141 @@
+#include "replay/process_stack.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "crane/runtime/convert.hpp"
+#include "crane/runtime/process.hpp"
+
+namespace crane::replay {
+namespace {
+
+constexpr std::int64_t kPatience_ns = 10'000'000'000;
+
+std::filesystem::path new_directory() {
+  auto pattern = (std::filesystem::temp_directory_path() / "crane_replay_XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + ": cannot be made");
+  return pattern;
+}
+
+std::string rig_file(const std::filesystem::path& directory, const std::string& text) {
+  const auto file = directory / "rig.toml";
+  std::ofstream out{file, std::ios::binary};
+  out << text;
+  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+  return file.string();
+}
+
+}  // namespace
+
+ProcessReplay::ProcessReplay(std::vector<runtime::ComponentSpec> components, const RecordedRun& run,
+                             const ProcessOptions& options)
+    : components_{std::move(components)},
+      directory_{new_directory()},
+      launch_{.bus = options.bus,
+              .vendors = options.vendors,
+              .rig = rig_file(directory_, run.rig_text()),
+              .controller = std::string{run.controller().name},
+              .clock = "lockstep",
+              .epoch = 1,
+              .priority = 0},
+      bus_{[this] {
+        launch_.bus.crane += "_replay_" + std::to_string(::getpid());  // differs from that of a running crane
+        return bus::Bus{runtime::bus_options(launch_.bus, "crane_replay", crane_SOURCE_MONITOR, 1)};
+      }()},
+      replies_{bus_.subscriber(topics::reply)},
+      outputs_{bus_, components_, run.rig().design},
+      writers_{[this](const std::string&, crane_Source source, std::uint32_t epoch) {
+        return bus_.share(source, epoch);
+      }} {}
+
+ProcessReplay::~ProcessReplay() {
+  children_.stop();
+  std::error_code ignored;
+  std::filesystem::remove_all(directory_, ignored);
+}
+
+template <class Condition>
+void ProcessReplay::until(Condition condition, const std::string& what) {
+  const auto deadline_ns = runtime::monotonic_ns() + kPatience_ns;
+  while (!condition()) {
+    if (const auto ended = children_.ended()) throw std::runtime_error(stack::describe(*ended));
+    if (runtime::stop_requested()) throw std::runtime_error("interrupted");
+    if (runtime::monotonic_ns() > deadline_ns)
+      throw std::runtime_error("waited " + std::to_string(kPatience_ns / 1'000'000'000) + " s for " + what);
+    bus_.wait(std::chrono::milliseconds{20});
+  }
+}
+
+void ProcessReplay::start(const Cdr& first_state) {
+  writers_.open_clock_master(first_state);
+  stack::launch(children_, components_, launch_);
+  stack::wait_until_ready(children_, components_, bus_, std::chrono::seconds{60});
+  until([this] { return replies_.matched() > 0; }, "the replies of the supervisor");
+  started_ = true;
+}
+
+bool ProcessReplay::receive(const RecordedTick& tick) {
+  const auto* state = tick.find(topics::state.description);
+  if (state == nullptr) return false;
+  if (!started_) start(*state);
+  for (const auto& input : tick.inputs)
+    if (!deliver(input, tick.number)) return false;
+  if (!writers_.publish_state(*state)) return false;
+  until(
+      [&] {
+        outputs_.take();
+        return outputs_.missing(tick.number).empty();
+      },
+      "tick " + std::to_string(tick.number) + " of the processes");
+  return true;
+}
+
+bool ProcessReplay::deliver(const Received& input, std::uint64_t tick) {
+  if (input.topic->name == topics::request.description.name) {
+    auto request = decoded(topics::request, input.cdr);
+    if (!request) return false;
+    request->apply_tick = std::max(request->apply_tick, tick);
+    schedule(writers_.operator_of(request->header, request->client), *request);
+    return true;
+  }
+  const auto jog = decoded(topics::jog, input.cdr);
+  if (!jog || !writers_.publish_input(input)) return false;
+  // A request that the supervisor refuses: its confirmation shows that the sample before it has arrived.
+  msg::Request probe{};
+  runtime::assign(probe.client, jog->client);
+  probe.kind = crane_REQUEST_MOVE;
+  probe.apply_tick = tick;
+  schedule(writers_.operator_of(jog->header, jog->client), probe);
+  return true;
+}
+
+/// Repeats a request only while the supervisor has not discovered its writer: it executes a request once per
+/// tick.
+void ProcessReplay::schedule(RecordedWriters::Operator& sender, const msg::Request& request) {
+  until([&] { return sender.requests.matched() > 0; }, "the supervisor to receive requests");
+  std::int64_t repeat_ns = 0;
+  until(
+      [&] {
+        if (const auto now_ns = runtime::monotonic_ns(); now_ns >= repeat_ns) {
+          constexpr std::int64_t kRepeat_ns = 500'000'000;
+          if (!sender.requests.publish(request)) throw std::runtime_error("a request could not be sent");
+          repeat_ns = now_ns + kRepeat_ns;
+        }
+        return is_scheduled(request);
+      },
+      "the confirmation of a request");
+}
+
+bool ProcessReplay::is_scheduled(const msg::Request& request) {
+  while (const auto reply = replies_.take())
+    if (reply->request_id == request.id && std::string_view{reply->client} == request.client &&
+        (std::string_view{reply->reason} == "scheduled" || !reply->accepted))
+      return true;
+  return false;
+}
+
+}  // namespace crane::replay

@@ -1,0 +1,159 @@
+// Recordings of the recorder, in the order of arrival, are replayed up to the first tick that they cannot
+// show.
+#include <gtest/gtest.h>
+
+#include "recorded_crane.hpp"
+#include "recorder/recorder.hpp"
+#include "replay/replay.hpp"
+#include "replay/swap.hpp"
+
+namespace crane::replay_test {
+namespace {
+
+using replay::Result;
+using testing::Test;
+
+bus::Options recorder_options(const std::shared_ptr<bus::MemoryNetwork>& network) {
+  auto options = runtime::memory_options(network, "recorder", crane_SOURCE_RECORDER);
+  options.epoch = 77;
+  return options;
+}
+
+/// An armed crane that moves and stops, recorded by the recorder.
+class ByTheRecorder : public Test {
+ protected:
+  void SetUp() override {
+    RecordedCrane crane{directory_ / "in_order.mcap", "virginia_tech_tower", "gain_scheduling_partial"};
+    std::unique_ptr<recorder::Recorder> recorder;
+    bus::Bus bus{recorder_options(crane.observed_by([&] { ASSERT_TRUE(recorder->poll()); }))};
+    recorder = std::make_unique<recorder::Recorder>(
+        bus, recorder::Options{.file = file_, .rig_text = crane.rig_text()});
+    crane.arm();
+    crane.ask({.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {0.8, 0.4, 0}});
+    crane.run(1);
+    crane.ask(crane_REQUEST_STOP);
+    crane.run_until(crane_STATE_LOCKED, 10);
+    ticks_ = crane.finish();
+    ASSERT_TRUE(recorder->close());
+  }
+  static Result replayed(const std::filesystem::path& file) {
+    return replay::replay(file, replay::loop_components());
+  }
+  /// A copy without the samples that `omit` selects.
+  std::filesystem::path without(const std::function<bool(const recording::Message&)>& omit) {
+    auto copy = directory_ / "copy.mcap";
+    copy_changed(file_, copy, [&](const recording::Message& message, std::vector<std::uint8_t>&) {
+      return message.channel->topic == recording::kLossTopic || !omit(message);
+    });
+    return copy;
+  }
+  std::filesystem::path without(const topics::Description& topic, std::uint32_t tick) {
+    return without([&topic, tick](const recording::Message& message) {
+      return message.channel->topic == topic.name && message.sequence == tick;
+    });
+  }
+
+  recording::TemporaryDirectory directory_;
+  std::filesystem::path file_ = directory_ / "recorder.mcap";
+  std::uint64_t ticks_ = 0;
+};
+
+TEST_F(ByTheRecorder, IsReplayedBitForBit) {
+  const auto result = replayed(file_);
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.equal_ticks, ticks_);
+  EXPECT_TRUE(result.by_recorder);
+  EXPECT_EQ(result.ends, "");
+  EXPECT_EQ(result.not_recorded, 0U);
+  EXPECT_TRUE(result.derived_requests.empty());
+}
+
+TEST_F(ByTheRecorder, RequestsThatAreMissingFollowFromTheStatuses) {
+  const auto result = replayed(without([](const recording::Message& message) {
+    return message.channel->topic == topics::request.description.name;
+  }));
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.equal_ticks, ticks_);
+  ASSERT_EQ(result.derived_requests.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NE(result.derived_requests[i].find(std::array{"reset", "arm", "move", "stop"}.at(i)),
+              std::string::npos)
+        << result.derived_requests[i];
+}
+
+TEST_F(ByTheRecorder, ASampleThatIsNotRecordedIsNotCompared) {
+  const auto result = replayed(without(topics::demand.description, 300));
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.equal_ticks, ticks_);
+  EXPECT_EQ(result.not_recorded, 1U);
+}
+
+TEST_F(ByTheRecorder, TheReplayEndsBeforeATickWithoutState) {
+  const auto result = replayed(without(topics::state.description, 300));
+  EXPECT_FALSE(result.first);
+  EXPECT_EQ(result.equal_ticks, 300U);
+  EXPECT_EQ(
+      result.ends,
+      "tick 300: no crane/state: the bridge skipped the tick, or the recorder did not receive the sample");
+}
+
+TEST_F(ByTheRecorder, TheReplayEndsWhereAProcessIsRestarted) {
+  const auto copy = directory_ / "restarted.mcap";
+  copy_changed(file_, copy, [](const recording::Message& message, std::vector<std::uint8_t>& data) {
+    if (message.channel->topic == topics::tracking.description.name && message.sequence == 250)
+      data = replay::with_epoch(topics::tracking.description, data, 99);
+    return message.channel->topic != recording::kLossTopic;
+  });
+  const auto result = replayed(copy);
+  EXPECT_EQ(result.equal_ticks, 250U);
+  EXPECT_EQ(result.ends, "tick 250: crane/tracking has another start-up number: its process was restarted");
+}
+
+TEST_F(ByTheRecorder, AnotherDemandIsNamedWithTickAndField) {
+  const auto copy = directory_ / "changed.mcap";
+  copy_changed(file_, copy, [](const recording::Message& message, std::vector<std::uint8_t>& data) {
+    if (message.channel->topic == topics::demand.description.name && message.sequence == 280)
+      data[bus::kEncapsulation_bytes + sizeof(msg::Header)] ^= 1U;  // lowest bit of control_v[0]
+    return message.channel->topic != recording::kLossTopic;
+  });
+  const auto result = replayed(copy);
+  ASSERT_TRUE(result.first);
+  EXPECT_EQ(result.equal_ticks, 280U);
+  EXPECT_EQ(result.first->topic, "crane/demand");
+  EXPECT_EQ(result.first->what.field, "control_v[0]");
+}
+
+/// The recorder discovers the bridge after its first ticks.
+TEST_F(ByTheRecorder, TheCraneRestsBeforeTheFirstRecordedTickOfAStart) {
+  const auto result = replayed(without([](const recording::Message& message) {
+    return message.sequence < 5 && message.channel->topic != topics::node.description.name;
+  }));
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.equal_ticks, ticks_);
+  EXPECT_EQ(result.assumed_ticks, 5U);
+}
+
+TEST_F(ByTheRecorder, IsRefusedWhenItBeginsLater) {
+  const auto copy = without([](const recording::Message& message) {
+    return message.sequence < 20 && message.channel->topic != topics::node.description.name;
+  });
+  try {
+    (void)replayed(copy);
+    FAIL();
+  } catch (const replay::Refusal& refusal) {
+    EXPECT_NE(std::string{refusal.what()}.find("begins with tick 20; a replay needs tick 0"),
+              std::string::npos)
+        << refusal.what();
+  }
+}
+
+TEST_F(ByTheRecorder, ShowsTheDemandOfAnotherController) {
+  const auto result = replay::swap_controller(file_, "delayed_1");
+  EXPECT_EQ(result.ticks, ticks_);
+  EXPECT_EQ(result.recorded, "gain_scheduling_partial");
+  ASSERT_TRUE(result.first_differs);
+  EXPECT_GT(result.largest[0].difference_v, 0.1);
+}
+
+}  // namespace
+}  // namespace crane::replay_test
