@@ -1,5 +1,6 @@
 #include "cli/jog_moves.hpp"
 
+#include "crane/bus/newest.hpp"
 #include "crane/runtime/convert.hpp"
 
 namespace crane::cli {
@@ -11,8 +12,10 @@ JogMoves::JogMoves(bus::Bus& bus)
       references_{bus.subscriber(topics::reference)} {}
 
 void JogMoves::receive() {
-  while (const auto state = states_.take()) measured_ = runtime::positions(*state);
-  while (const auto sample = references_.take())
+  std::optional<msg::State> state;
+  if (bus::take_newest(states_, state)) measured_ = runtime::positions(*state);
+  std::optional<msg::Reference> sample;
+  if (bus::take_newest(references_, sample))
     reference_ = {sample->axis[0].position, sample->axis[1].position, sample->axis[2].position};
 }
 

@@ -7,6 +7,7 @@
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
 #include "crane/bridge/last_line.hpp"
+#include "crane/bus/newest.hpp"
 #include "crane/fields/angle.hpp"
 #include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/states.hpp"
@@ -16,11 +17,6 @@ namespace crane::cli {
 namespace {
 
 using fields::kDegPerRad;
-
-template <class T>
-void keep_newest(bus::Subscriber<T>& subscriber, std::optional<T>& newest) {
-  while (const auto sample = subscriber.take()) newest = sample;
-}
 
 void print_nodes(std::ostream& out, const Snapshot& snapshot) {
   TextTable table{{"process", "vendor", "pid", "phase", "controller", "ticks", "lost", "late", "duplicate",
@@ -158,10 +154,10 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
   int writers = 0;
   wait_until(bus, timeout_s, [&] {
     while (const auto node = nodes.take()) snapshot.nodes[node->node] = *node;
-    keep_newest(supervisors, snapshot.supervisor);
-    keep_newest(states, snapshot.state);
-    keep_newest(twins, snapshot.twin);
-    keep_newest(adaptations, snapshot.adaptation);
+    bus::take_newest(supervisors, snapshot.supervisor);
+    bus::take_newest(states, snapshot.state);
+    bus::take_newest(twins, snapshot.twin);
+    bus::take_newest(adaptations, snapshot.adaptation);
     const auto now_ns = runtime::monotonic_ns();
     if (nodes.matched() != writers) changed_ns = now_ns;
     writers = nodes.matched();

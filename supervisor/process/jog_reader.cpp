@@ -8,7 +8,7 @@ void JogReader::take(std::uint64_t tick, double now_s) {
   for (int taken = 0; taken < kMostPerTick; ++taken) {
     const auto sample = samples_.take(&info);
     if (!sample) return;
-    if (!info.valid) continue;
+    if (!info.valid || !topics::may_write(topics::jog.description, sample->header.source)) continue;
     const auto verdict = session_.take(*sample, {info.participant, info.writer}, tick, now_s);
     if (verdict == JogSession::Verdict::stranger && !stranger_reported_) {
       stranger_reported_ = true;

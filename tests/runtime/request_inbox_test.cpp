@@ -50,6 +50,23 @@ class Inbox : public testing::Test {
                       {crane_REQUEST_STOP, crane_REQUEST_ARM}};
 };
 
+TEST_F(Inbox, IgnoresRequestsOfAProcessThatMayNotWriteThem) {
+  for (const auto source :
+       {crane_SOURCE_NONE, crane_SOURCE_SUPERVISOR, crane_SOURCE_MONITOR, crane_SOURCE_TWIN}) {
+    bus::Bus stranger{memory_options(network_, "stranger", source)};
+    auto requests = stranger.publisher(topics::request);
+    msg::Request request{};
+    request.id = 1;
+    request.kind = crane_REQUEST_STOP;
+    ASSERT_TRUE(requests.publish(request));
+    EXPECT_FALSE(inbox_.receive()) << "source " << source;
+  }
+  send(2, 0);
+  EXPECT_TRUE(inbox_.receive());
+  EXPECT_EQ(inbox_.take_due(0)->id, 2U);
+  EXPECT_FALSE(inbox_.take_due(0));
+}
+
 TEST_F(Inbox, ReturnsARequestAtItsTickAndNotBefore) {
   send(1, 20);
   send(2, 0);

@@ -27,7 +27,7 @@ bool RequestInbox::receive() {
   for (int taken = 0; taken < kMostPerCall; ++taken) {
     auto request = requests_.take(&info);
     if (!request) break;
-    if (!info.valid) continue;
+    if (!info.valid || !topics::may_write(topics::request.description, request->header.source)) continue;
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
     if (!schedules_ && stops(*request)) request->apply_tick = 0;

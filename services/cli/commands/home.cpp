@@ -7,6 +7,7 @@
 #include "cli/number_range.hpp"
 #include "cli/operator_request.hpp"
 #include "commands.hpp"
+#include "crane/bus/newest.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/supervisor/states.hpp"
 
@@ -29,8 +30,8 @@ class Watch {
   bool until(double timeout_s,
              const std::function<bool(const msg::SupervisorStatus&, const msg::State&)>& holds) {
     const bool reached = wait_until(bus_, timeout_s, [&] {
-      while (const auto status = statuses_.take()) status_ = status;
-      while (const auto state = states_.take()) state_ = state;
+      bus::take_newest(statuses_, status_);
+      bus::take_newest(states_, state_);
       return status_ && state_ && holds(*status_, *state_);
     });
     if (runtime::stop_requested())
