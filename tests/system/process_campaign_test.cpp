@@ -120,8 +120,10 @@ class ProcessCampaign : public testing::Test {
   [[nodiscard]] std::int64_t now_ns() const { return clock_ns(CLOCK_MONOTONIC); }
 
   void bring_to(When when) {
-    locked_ns_ = now_ns();
-    if (!is(crane_STATE_HOLD)) stack_->session().arm();
+    if (!is(crane_STATE_HOLD)) {
+      locked_ns_ = now_ns();
+      stack_->session().arm();
+    }
     stack_->listen(100ms);
     if (when == When::idle) return;
     const bool far = stack_->session().state()->trolley_position_m > 0.65;

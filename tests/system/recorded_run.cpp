@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "crane/bus/cdr.hpp"
@@ -16,7 +17,7 @@ constexpr std::size_t kEncapsulation_bytes = 4;
 /// Half a step of a 12-bit converter of +-10 V.
 constexpr double kConverterStep_v = 20.0 / 4096;
 /// Longest time of a request until it acts, in ticks: a reliable writer repeats a lost one.
-constexpr std::size_t kTakesEffect_ticks = 100;
+constexpr std::uint64_t kTakesEffect_ticks = 100;
 
 template <class T>
 bool decode(const topics::Topic<T>& topic, const recording::Message& message, T& out) {
@@ -33,7 +34,7 @@ auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::int64_
              bool nobody_else) {
   std::map<std::uint64_t, decltype(Heard::sample)> result;
   std::uint32_t trusted = 0;
-  for (const auto& [log_ns, sample] : heard) {
+  for (const auto& [log_ns, written_ns, sample] : heard) {
     if (log_ns > until_ns) break;
     if (log_ns < known_ns || trusted == 0 || nobody_else) trusted = sample.header.epoch;
     if (sample.header.epoch == trusted) result[sample.header.tick] = sample;
@@ -79,10 +80,10 @@ void fill_truth(Row& row, const Row* before) {
 Recorded::Recorded(const std::filesystem::path& file) {
   recording::McapReader reader{file};
   reader.for_each({}, [this](const recording::Message& message) {
-    Heard<msg::State> state{message.log_time_ns, {}};
-    Heard<msg::Command> command{message.log_time_ns, {}};
-    Heard<msg::SupervisorStatus> status{message.log_time_ns, {}};
-    Heard<msg::Request> request{message.log_time_ns, {}};
+    Heard<msg::State> state{message.log_time_ns, message.publish_time_ns, {}};
+    Heard<msg::Command> command{message.log_time_ns, message.publish_time_ns, {}};
+    Heard<msg::SupervisorStatus> status{message.log_time_ns, message.publish_time_ns, {}};
+    Heard<msg::Request> request{message.log_time_ns, message.publish_time_ns, {}};
     if (decode(topics::state, message, state.sample)) states_.push_back(state);
     if (decode(topics::command, message, command.sample)) commands_.push_back(command);
     if (decode(topics::supervisor, message, status.sample)) statuses_.push_back(status);
@@ -97,6 +98,19 @@ std::int64_t Recorded::log_time_of(std::int64_t monotonic_ns) const {
     return heard.sample.header.sample_time_ns >= monotonic_ns;
   });
   return found == states_.end() ? std::numeric_limits<std::int64_t>::max() : found->log_ns;
+}
+
+/// The recorder takes one topic after the other: its order of arrival does not show which of two samples of
+/// different topics was written first, but the times of their writers do.
+std::uint64_t Recorded::first_tick_after(std::int64_t written_ns) const {
+  std::int64_t nearest_ns = std::numeric_limits<std::int64_t>::max();
+  std::uint64_t tick = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& status : statuses_)
+    if (status.written_ns >= written_ns && status.written_ns < nearest_ns) {
+      nearest_ns = status.written_ns;
+      tick = status.sample.header.tick;
+    }
+  return tick;
 }
 
 std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t until_ns, bool nobody_else) const {
@@ -117,17 +131,13 @@ std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t until_ns, boo
     fill_outputs(row, commands);
     rows.push_back(row);
   }
-  for (const auto& [log_ns, request] : requests_) {
-    const auto heard_ns = log_ns;
-    const auto at =
-        std::ranges::find_if(states_, [heard_ns](const auto& heard) { return heard.log_ns >= heard_ns; });
-    if (at == states_.end()) break;
-    const auto row = std::ranges::lower_bound(rows, at->sample.header.sample_time_ns, {}, &Row::time_ns);
-    const auto first = std::max<std::ptrdiff_t>(row - rows.begin() - 1, 0);
-    for (std::size_t k = static_cast<std::size_t>(first);
-         k < rows.size() && k < static_cast<std::size_t>(first) + kTakesEffect_ticks; ++k) {
-      rows[k].reset_requested = rows[k].reset_requested || request.kind == crane_REQUEST_RESET;
-      rows[k].arm_requested = rows[k].arm_requested || request.kind == crane_REQUEST_ARM;
+  for (const auto& request : requests_) {
+    const auto first = first_tick_after(request.written_ns);
+    for (Row& row : rows) {
+      const auto tick = row.state.header.tick;
+      if (tick < first || tick - first >= kTakesEffect_ticks) continue;
+      row.reset_requested = row.reset_requested || request.sample.kind == crane_REQUEST_RESET;
+      row.arm_requested = row.arm_requested || request.sample.kind == crane_REQUEST_ARM;
     }
   }
   return rows;

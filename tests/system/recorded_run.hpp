@@ -22,9 +22,13 @@ class Recorded {
  private:
   template <class T>
   struct Heard {
-    std::int64_t log_ns = 0;
+    std::int64_t log_ns = 0;      ///< arrival at the recorder
+    std::int64_t written_ns = 0;  ///< clock of the writer; all processes of a test run on one host
     T sample{};
   };
+  /// Tick of the first status that the supervisor has written at this time or later: the first one that can
+  /// be the effect of a request of this time.
+  [[nodiscard]] std::uint64_t first_tick_after(std::int64_t written_ns) const;
   [[nodiscard]] std::int64_t log_time_of(std::int64_t monotonic_ns) const;
 
   std::vector<Heard<msg::State>> states_;
