@@ -23,11 +23,12 @@ std::string describe(int status) {
 }
 
 /// Runs between fork and exec; only async-signal-safe calls are permitted.
-[[noreturn]] void become(const char* program, char* const* arguments, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* arguments, pid_t parent, int inherited) {
   ::setpgid(0, 0);  // Ctrl-C then reaches only the parent, which stops the stack in order
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output contains only the result of the parent's command
+  if (inherited >= 0) ::fcntl(inherited, F_SETFD, 0);
   ::execv(program, arguments);
   ::_exit(127);
 }
@@ -39,7 +40,7 @@ std::filesystem::path program_directory() {
 }
 
 void ChildProcesses::start(const std::string& name, const std::string& program,
-                           const std::vector<std::string>& arguments) {
+                           const std::vector<std::string>& arguments, int inherited) {
   const std::string path = (program_directory() / program).string();
   if (::access(path.c_str(), X_OK) != 0)
     throw std::runtime_error(path + ": " + std::strerror(errno) + "; build the project first");
@@ -49,7 +50,7 @@ void ChildProcesses::start(const std::string& name, const std::string& program,
   const auto parent = ::getpid();
   const auto pid = ::fork();
   if (pid < 0) throw std::runtime_error("cannot start " + program + ": " + std::strerror(errno));
-  if (pid == 0) become(path.c_str(), argv.data(), parent);
+  if (pid == 0) become(path.c_str(), argv.data(), parent, inherited);
   children_.push_back({name, pid});
 }
 

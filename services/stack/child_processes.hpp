@@ -25,7 +25,9 @@ class ChildProcesses {
   ChildProcesses& operator=(const ChildProcesses&) = delete;
 
   /// Starts `program` from the directory of the running executable. @throws std::runtime_error
-  void start(const std::string& name, const std::string& program, const std::vector<std::string>& arguments);
+  /// @param inherited  a further descriptor that the child inherits; -1: none
+  void start(const std::string& name, const std::string& program, const std::vector<std::string>& arguments,
+             int inherited = -1);
   /// The first child that has ended; nothing while all children run.
   [[nodiscard]] std::optional<Ended> ended();
   /// Sends SIGTERM to all children in the reverse order of their start, and SIGKILL to those that still run

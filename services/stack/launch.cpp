@@ -21,7 +21,12 @@ void start(ChildProcesses& children, std::string_view name, std::string_view pro
   if (options.epoch != 0) arguments.insert(arguments.end(), {"--epoch", std::to_string(options.epoch)});
   arguments.insert(arguments.end(), {"--parent", std::to_string(::getpid())});
   if (options.verbose) arguments.emplace_back("--verbose");
-  children.start(std::string{name}, std::string{program}, arguments);
+  int inherited = -1;
+  if (options.ledger != nullptr && options.clock == "realtime") {
+    inherited = options.ledger->descriptor();
+    arguments.insert(arguments.end(), {"--ledger", "/proc/self/fd/" + std::to_string(inherited)});
+  }
+  children.start(std::string{name}, std::string{program}, arguments, inherited);
 }
 
 }  // namespace
@@ -76,6 +81,7 @@ void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions
   options.bus.vendor = chosen != options.vendors.end() ? chosen->second : "fastdds";
   options.rig = rig;
   options.priority = 0;
+  options.ledger = nullptr;  // the twin is no process of the loop
   launch(children, {twin::twin_spec()}, options);
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 /// Starts the processes of a stack with common options, and waits until all are ready.
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "crane/bus/bus.hpp"
+#include "crane/bus/ledger.hpp"
 #include "crane/runtime/process.hpp"
 #include "stack/child_processes.hpp"
 
@@ -19,6 +21,8 @@ struct LaunchOptions {
   std::uint32_t epoch = 0;
   int priority = 50;
   bool verbose = false;
+  /// Of the processes of the loop, which inherit it. Lockstep needs none: it runs a simulated crane only.
+  std::shared_ptr<bus::Ledger> ledger = bus::Ledger::create();
 };
 
 /// Parses the "NAME=VENDOR" arguments of --dds-for. @throws configuration::ConfigurationError for an unknown

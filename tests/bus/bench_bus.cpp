@@ -5,6 +5,7 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/bus/cdr.hpp"
+#include "crane/bus/ledger.hpp"
 #include "crane/bus/seal.hpp"
 #include "crc32c.hpp"
 
@@ -69,6 +70,19 @@ void intact(benchmark::State& run) {
   while (run.KeepRunning()) benchmark::DoNotOptimize(bus::intact(kTopic, &sample));
 }
 BENCHMARK(intact);
+
+/// Enters a sample and searches for it, as publisher and subscriber of a loop topic do.
+void ledger(benchmark::State& run) {
+  const auto shared = bus::Ledger::create();
+  auto sample = state();
+  while (run.KeepRunning()) {
+    ++sample.header.tick;
+    shared->enter(bus::ledger_entry(kTopic, &sample, crane_MESSAGES_VERSION));
+    if (!shared->contains(bus::ledger_entry(kTopic, &sample, crane_MESSAGES_VERSION)))
+      run.SkipWithError("an entered sample is missing");
+  }
+}
+BENCHMARK(ledger)->Name("ledger_enter_and_search");
 
 void memory_publish_and_take(benchmark::State& run) {
   bus::Bus a{{.vendor = bus::Vendor::memory, .network = bus::make_memory_network()}};

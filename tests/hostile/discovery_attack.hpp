@@ -27,9 +27,9 @@ class DiscoveryAttack : public testing::Test {
     if (!Ear::permitted()) GTEST_SKIP() << "listening on the loop-back interface needs CAP_NET_RAW";
     start("");
   }
-  void start(const std::string& keys) {
+  void start(const std::string& keys, bool ledger = true) {
     stack_.reset();
-    stack_.emplace(kDomain, kDiscoveryRig, stack::Plant::simulated, keys);
+    stack_.emplace(kDomain, kDiscoveryRig, stack::Plant::simulated, keys, "cyclone", ledger);
     ASSERT_TRUE(stack_->until([this] { return is(crane_STATE_LOCKED); }, 10s));
     stack_->listen(1s);  // the supervisor refuses a reset in its first second
   }

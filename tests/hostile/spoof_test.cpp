@@ -1,5 +1,5 @@
-/// RTPS packets with the GUID of the supervisor's writer. No check above the middleware can distinguish these
-/// packets from those of the supervisor. With keys, no such packet moves the crane.
+/// RTPS packets with the GUID of the supervisor's writer. With keys or with the ledger of the stack, no such
+/// packet moves the crane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,10 +116,10 @@ TEST_F(Spoof, NoneOf10000ForgedOrReplayedPacketsMovesACraneWithKeys) {
   EXPECT_NO_THROW(stack.session().arm()) << "the packets have disturbed the crane";
 }
 
-/// No check above the middleware can prevent that the bridge receives such packets. The supervisor detects
-/// their effect and ends. `crane up` would then end the bridge; this test does not end it.
-TEST_F(Spoof, WithoutKeysForgedPacketsEndTheSupervisorBeforeTheCraneMoves) {
-  RunningStack stack{kDomain, "virginia_tech_tower"};
+/// Without keys and ledger the bridge executes such packets. The supervisor detects their effect and ends.
+/// `crane up` would then end the bridge; this test does not end it.
+TEST_F(Spoof, WithoutTheLedgerForgedPacketsEndTheSupervisorBeforeTheCraneMoves) {
+  RunningStack stack{kDomain, "virginia_tech_tower", stack::Plant::simulated, "", "cyclone", false};
   wait_until_locked(stack);
   std::optional<Impostor> impostor;
   for (auto& packet : heard(stack, "plant", 100))

@@ -52,13 +52,14 @@ void Observer::forget() {
 }
 
 RunningStack::RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant,
-                           const std::string& keys, const std::string& vendor)
+                           const std::string& keys, const std::string& vendor, bool ledger)
     : specs_{stack::stack_with(plant)} {
   options_.bus.domain = domain;
   options_.bus.crane = crane_name();
   options_.bus.secure = keys;
   options_.bus.vendor = vendor;
   options_.rig = stack::find_rig(rig).string();
+  if (!ledger) options_.ledger = nullptr;
   if (plant == stack::Plant::hardware)
     stack::launch_rig(children_, configuration::load_rig(options_.rig), options_);
   stack::launch(children_, specs_, options_);

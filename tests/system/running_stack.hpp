@@ -49,8 +49,9 @@ class RunningStack {
   /// Starts a stack and waits until it is ready.
   /// @param keys    directory of keys; empty: none
   /// @param vendor  DDS vendor of all processes
+  /// @param ledger  false: the processes of the loop have no ledger, as when they are started one by one
   RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant = stack::Plant::simulated,
-               const std::string& keys = "", const std::string& vendor = "cyclone");
+               const std::string& keys = "", const std::string& vendor = "cyclone", bool ledger = true);
 
   [[nodiscard]] experiments::RealtimeSession& session() { return *session_; }
   [[nodiscard]] stack::ChildProcesses& children() { return children_; }

@@ -2,6 +2,7 @@
 /// ends and names the other. The crane does not move while both run, and obeys the remaining one afterwards.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -44,7 +45,8 @@ class TwoSupervisors : public testing::TestWithParam<Pair> {
   [[nodiscard]] ProgramRun supervisor(const char* vendor) const {
     return {stack::program_directory() / "crane_supervisor",
             {"--rig", options_.rig, "--domain", std::to_string(kDomain), "--crane", crane_name(), "--dds",
-             vendor}};
+             vendor, "--ledger",
+             "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(options_.ledger->descriptor())}};
   }
   struct Outcome {
     ProgramRun& ended;

@@ -84,7 +84,8 @@ UntypedPublisher Bus::make_publisher(const topics::Description& topic, const End
                                 .writer = state_->back_end->writer(topic, endpoint),
                                 .source = state_->options.source,
                                 .epoch = state_->options.epoch,
-                                .messages_version = state_->options.messages_version})};
+                                .messages_version = state_->options.messages_version,
+                                .ledger = topic.every_tick ? state_->options.ledger : nullptr})};
   } catch (const Error& error) {
     if (!state_->options.credentials) throw;
     throw Error{std::string{error.what()} + "; may the role of " +
@@ -99,7 +100,8 @@ UntypedSubscriber Bus::make_subscriber(const topics::Description& topic, const E
       UntypedSubscriber::State{.topic = topic,
                                .has_texts = CdrCodec::of(*topic.descriptor).has_texts(),
                                .reader = state_->back_end->reader(topic, endpoint, state_->doorbell),
-                               .messages_version = state_->options.messages_version})};
+                               .messages_version = state_->options.messages_version,
+                               .ledger = topic.every_tick ? state_->options.ledger : nullptr})};
 }
 
 CdrPublisher Bus::cdr_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {

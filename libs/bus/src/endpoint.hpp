@@ -1,6 +1,7 @@
 #pragma once
 /// Writer and reader of one topic, without its type. Each back end implements both.
 #include "crane/bus/bus.hpp"
+#include "crane/bus/ledger.hpp"
 
 namespace crane::bus {
 namespace detail {
@@ -23,6 +24,8 @@ class Reader {
   /// for messages of this version: its CRC need not be computed again.
   [[nodiscard]] virtual bool delivered_as_sealed(std::uint32_t /*messages_version*/) const { return false; }
   [[nodiscard]] virtual int matched() const = 0;
+  virtual void matched_writers(std::vector<WriterId>& writers) const = 0;
+  [[nodiscard]] virtual std::string origin_of(const WriterId& /*writer*/) const { return {}; }
 };
 
 }  // namespace detail
@@ -32,6 +35,7 @@ struct UntypedPublisher::State {
   std::unique_ptr<detail::Writer> writer;
   crane_Source source;
   std::uint32_t epoch, messages_version;
+  std::shared_ptr<Ledger> ledger;  ///< null when the topic is no loop topic, or without a ledger
 };
 
 struct UntypedSubscriber::State {
@@ -39,6 +43,7 @@ struct UntypedSubscriber::State {
   bool has_texts;
   std::unique_ptr<detail::Reader> reader;
   std::uint32_t messages_version;
+  std::shared_ptr<Ledger> ledger;  ///< as in UntypedPublisher::State
   ReaderCounts counts{};
 };
 

@@ -42,6 +42,7 @@ bool UntypedPublisher::send(void* sample) {
   auto* const stamps = topic.every_tick ? path_stamps() : nullptr;
   const auto begin_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
   seal(topic, sample, state_->source, state_->epoch, state_->messages_version);
+  if (state_->ledger != nullptr) state_->ledger->enter(ledger_entry(topic, sample, state_->messages_version));
   const auto sealed_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
   const bool sent = state_->writer->write(sample);
   if (stamps != nullptr)
@@ -69,6 +70,12 @@ UntypedSubscriber::UntypedSubscriber(UntypedSubscriber&&) noexcept = default;
 UntypedSubscriber& UntypedSubscriber::operator=(UntypedSubscriber&&) noexcept = default;
 
 int UntypedSubscriber::matched() const { return state_->reader->matched(); }
+void UntypedSubscriber::matched_writers(std::vector<WriterId>& writers) const {
+  state_->reader->matched_writers(writers);
+}
+std::string UntypedSubscriber::origin_of(const WriterId& writer) const {
+  return state_->reader->origin_of(writer);
+}
 const ReaderCounts& UntypedSubscriber::counts() const { return state_->counts; }
 const topics::Description& UntypedSubscriber::topic() const { return state_->topic; }
 
@@ -82,6 +89,8 @@ bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
       continue;
     }
     if (!local.valid && info == nullptr) continue;
+    if (local.valid && state.ledger != nullptr)
+      local.entered = state.ledger->contains(ledger_entry(state.topic, sample, state.messages_version));
     if (info != nullptr) *info = local;
     if (local.valid) {
       ++state.counts.taken;

@@ -18,22 +18,31 @@ using enum protection::Protection;
 
 constexpr std::size_t kVersionBytes = sizeof(std::uint32_t);
 
-/// CRC of all fields before the last one, followed by the name of the topic and the version of the messages
-/// (little endian). @return false when the sample cannot be encoded
-bool checksum(const topics::Description& topic, const void* sample, std::uint32_t version,
-              std::uint32_t& crc) {
+/// Encodes a sample. @param dropped  number of bytes at its end that are replaced by the name of the topic
+/// and the version of the messages (little endian). @return valid until the next call in this thread; empty
+/// when the sample cannot be encoded
+std::span<const std::uint8_t> encoded(const topics::Description& topic, const void* sample,
+                                      std::size_t dropped, std::size_t name_bytes, std::uint32_t version) {
   const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
   thread_local std::vector<std::uint8_t> buffer;  // reused, to avoid an allocation per sample
   const std::size_t needed = codec.max_encoded_bytes() + topic.name.size() + kVersionBytes;
   if (buffer.size() < needed) buffer.resize(needed);
   const std::size_t bytes = codec.encode(sample, std::span{buffer}.first(codec.max_encoded_bytes()));
-  if (bytes < kCrcBytes) return false;
-  const std::size_t name_bytes = enabled(bus_checksum_of_topic) ? topic.name.size() : 0;
-  std::memcpy(buffer.data() + bytes - kCrcBytes, topic.name.data(), name_bytes);
-  std::size_t end = bytes - kCrcBytes + name_bytes;
+  if (bytes < kCrcBytes) return {};
+  std::memcpy(buffer.data() + bytes - dropped, topic.name.data(), name_bytes);
+  std::size_t end = bytes - dropped + name_bytes;
   for (std::size_t i = 0; i < kVersionBytes; ++i)
     buffer[end++] = static_cast<std::uint8_t>(version >> (8 * i));
-  crc = crc32c(std::span{buffer}.first(end));
+  return std::span{buffer}.first(end);
+}
+
+/// CRC of all fields before the last one. @return false when the sample cannot be encoded
+bool checksum(const topics::Description& topic, const void* sample, std::uint32_t version,
+              std::uint32_t& crc) {
+  const std::size_t name_bytes = enabled(bus_checksum_of_topic) ? topic.name.size() : 0;
+  const auto bytes = encoded(topic, sample, kCrcBytes, name_bytes, version);
+  if (bytes.empty()) return false;
+  crc = crc32c(bytes);
   return true;
 }
 
@@ -49,6 +58,11 @@ void seal(const topics::Description& topic, void* sample, crane_Source source, s
   if (!checksum(topic, sample, messages_version, crc))
     return;  // an unterminated string; write() also refuses it
   std::memcpy(static_cast<std::uint8_t*>(sample) + codec.fields().back().offset, &crc, kCrcBytes);
+}
+
+std::span<const std::uint8_t> ledger_entry(const topics::Description& topic, const void* sample,
+                                           std::uint32_t messages_version) {
+  return encoded(topic, sample, 0, topic.name.size(), messages_version);
 }
 
 bool intact(const topics::Description& topic, const void* sample, std::uint32_t messages_version) {

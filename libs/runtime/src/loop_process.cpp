@@ -1,5 +1,6 @@
 #include "crane/runtime/loop_process.hpp"
 
+#include "crane/bus/ledger.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "crane/runtime/memory_limit.hpp"
 #include "host.hpp"
@@ -31,8 +32,9 @@ int run_loop(const std::vector<ComponentSpec>& specs, const LoopOptions& options
   const auto rig = configuration::load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto new_epoch = [&] { return options.epoch != 0 ? options.epoch : random_epoch(); };
-  bus::Bus participant{
-      bus_options(options.bus, std::string{kLoopProgram}, specs.front().source, new_epoch())};
+  auto joining = bus_options(options.bus, std::string{kLoopProgram}, specs.front().source, new_epoch());
+  joining.ledger = options.ledger.empty() ? bus::Ledger::create() : bus::Ledger::open(options.ledger);
+  bus::Bus participant{std::move(joining)};
   refuse_second_writer(participant, writes_of(specs));
   InProcessStack stack{specs, rig, controller, [&](const ComponentSpec& spec) {
                          return participant.share(spec.source, new_epoch());

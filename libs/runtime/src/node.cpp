@@ -90,8 +90,9 @@ void Node::beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& count
 void Node::report_drops(std::int64_t now_ns, const Ports& ports) {
   const bool disputed = ports.disputed(now_ns);
   if (disputed && !dispute_reported_)
-    error("second_writer", "a second writer on " + ports.dispute(now_ns) + ": its samples are dropped",
-          "end the other program, or start one of the two cranes with another --crane or --domain, then "
+    error("second_writer", "second writer on " + ports.dispute(now_ns),
+          "its samples are dropped: end it, or start one of the two cranes with another --crane or --domain, "
+          "then "
           "`crane reset`");
   dispute_reported_ = disputed;
   if (now_ns < next_beat_ns_) return;

@@ -71,7 +71,8 @@ std::string Ports::dispute(std::int64_t now_ns) const {
   for (const auto& input : loop_inputs_) {
     const auto& binding = input->binding();
     if (!binding.disputed(now_ns)) continue;
-    text += (text.empty() ? "" : "; ") + std::string{binding.topic().name} + ": " + binding.rival();
+    text += (text.empty() ? "" : "; ") + std::string{binding.topic().name} + ": " +
+            binding.dispute([&](const bus::WriterId& writer) { return input->origin_of(writer); });
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <random>
 #include <system_error>
 
+#include "crane/bus/ledger.hpp"
 #include "crane/bus/path_stamps.hpp"
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/memory_limit.hpp"
@@ -56,7 +57,9 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::stamp_paths_if_asked();
   Turn turn{monotonic_ns};  // outlives the bus, whose threads call it
-  bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
+  auto joining = bus_options(options.bus, std::string{spec.program}, spec.source, epoch);
+  if (!options.ledger.empty()) joining.ledger = bus::Ledger::open(options.ledger);
+  bus::Bus bus{std::move(joining)};
   refuse_second_writer(bus, spec.writes);
   bus.call_on_arrival([&turn, &spec](std::string_view topic) {
     // The delivery of a sample must not publish the same topic (see Bus::call_on_arrival).
@@ -93,6 +96,9 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
   app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
+  app.add_option("--ledger", options.ledger,
+                 "ledger of the stack: accept only samples that a process with this file has sent; crane up "
+                 "passes it to the processes of the loop");
   app.add_option("--parent", options.parent, "end when the process with this id ends; 0: never");
   app.add_flag("--verbose", options.verbose, "log every detail");
 }

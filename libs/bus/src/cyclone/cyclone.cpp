@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -107,6 +109,7 @@ class Endpoint {
   ListenerPointer listener() { return ListenerPointer{dds_create_listener(&context_)}; }
   [[nodiscard]] dds_entity_t topic() const { return topic_; }
   [[nodiscard]] std::string name() const { return std::string{context_.announce.topic}; }
+  [[nodiscard]] BackEnd& back_end() const { return *back_end_; }
 
  private:
   std::shared_ptr<BackEnd> back_end_;
@@ -173,18 +176,35 @@ class CycloneReader final : public detail::Reader {
     dds_get_subscription_matched_status(reader_, &status);
     return static_cast<int>(status.current_count);
   }
+  void matched_writers(std::vector<WriterId>& writers) const override {
+    constexpr std::size_t kMost = 64;
+    std::array<dds_instance_handle_t, kMost> handles{};
+    const auto found = dds_get_matched_publications(reader_, handles.data(), handles.size());
+    const auto count = std::min(kMost, static_cast<std::size_t>(std::max<dds_return_t>(found, 0)));
+    writers.assign(count, WriterId{});
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(writers[i].data(), &handles[i], sizeof handles[i]);
+  }
+  [[nodiscard]] std::string origin_of(const WriterId& writer) const override {
+    dds_instance_handle_t handle = 0;
+    std::memcpy(&handle, writer.data(), sizeof handle);
+    return endpoint_->back_end().origin_of(participant_of_writer(handle));
+  }
 
  private:
+  [[nodiscard]] ParticipantId participant_of_writer(dds_instance_handle_t writer) const {
+    ParticipantId participant = kUnknownParticipant;
+    if (auto* found = dds_get_matched_publication_data(reader_, writer); found != nullptr) {
+      std::memcpy(participant.data(), found->participant_key.v, participant.size());
+      dds_builtintopic_free_endpoint(found);
+    }
+    return participant;
+  }
   /// The search takes microseconds and allocates memory. Therefore it is made only when the writer has
   /// changed.
   ParticipantId participant_of(dds_instance_handle_t writer) {
     if (writer == writer_ && participant_ != kUnknownParticipant) return participant_;
     writer_ = writer;
-    participant_ = kUnknownParticipant;
-    if (auto* found = dds_get_matched_publication_data(reader_, writer); found != nullptr) {
-      std::memcpy(participant_.data(), found->participant_key.v, participant_.size());
-      dds_builtintopic_free_endpoint(found);
-    }
+    participant_ = participant_of_writer(writer);
     return participant_;
   }
 
@@ -236,10 +256,20 @@ class CycloneBackEnd final : public BackEnd {
   }
 
   std::vector<OtherVersion> other_versions() override {
+    update_census();
+    return census_.others();
+  }
+  std::string origin_of(const ParticipantId& participant) override {
+    update_census();
+    return census_.origin_of(participant);
+  }
+
+ private:
+  void update_census() {
     for (;;) {
       void* sample[1] = {nullptr};
       dds_sample_info_t info{};
-      if (dds_take(participants_, sample, &info, 1, 1) != 1) return census_.others();
+      if (dds_take(participants_, sample, &info, 1, 1) != 1) return;
       const auto* participant = static_cast<const dds_builtintopic_participant_t*>(sample[0]);
       Census::Key key{};
       std::memcpy(key.data(), participant->key.v, key.size());
@@ -254,7 +284,6 @@ class CycloneBackEnd final : public BackEnd {
     }
   }
 
- private:
   /// @param doorbell  null for a writer
   std::unique_ptr<Endpoint> endpoint(const topics::Description& topic, const EndpointOptions& options,
                                      std::shared_ptr<Doorbell> doorbell) {

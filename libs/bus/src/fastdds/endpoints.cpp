@@ -10,7 +10,9 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 #include "crane/bus/cdr.hpp"
 
@@ -163,6 +165,15 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
     reader_->get_subscription_matched_status(status);
     return status.current_count;
   }
+  void matched_writers(std::vector<WriterId>& writers) const override {
+    const std::lock_guard lock{mutex_};
+    writers = writers_;
+  }
+  [[nodiscard]] std::string origin_of(const WriterId& writer) const override {
+    ParticipantId participant{};
+    std::copy_n(writer.begin(), participant.size(), participant.begin());
+    return back_end_->origin_of(participant);
+  }
 
  private:
   /// Fast DDS writes no sample when the state of an instance changes. The handle of the instance contains the
@@ -184,6 +195,14 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
 
   void on_data_available(dds::DataReader*) override { doorbell_->ring(announce_.topic); }
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+    {
+      WriterId writer{};
+      const std::uint8_t* const guid = status.last_publication_handle.value;
+      std::copy_n(guid, writer.size(), writer.begin());
+      const std::lock_guard lock{mutex_};
+      std::erase(writers_, writer);
+      if (status.current_count_change > 0) writers_.push_back(writer);
+    }
     announce_.matched(status.current_count_change, status.current_count);
   }
   void on_requested_incompatible_qos(dds::DataReader*,
@@ -211,6 +230,8 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
   std::shared_ptr<Doorbell> doorbell_;
   const CdrCodec& codec_;
   std::atomic<int> alive_{0};
+  mutable std::mutex mutex_;
+  std::vector<WriterId> writers_;  ///< matched; Fast DDS 2.9 does not list them
   dds::DataReader* reader_;
 };
 

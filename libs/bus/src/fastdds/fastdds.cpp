@@ -163,7 +163,7 @@ class Discovery final : public dds::DomainParticipantListener {
     const auto& data = found.info.m_userData.getValue();
     census_.note(key, std::string{data.begin(), data.end()});
   }
-  [[nodiscard]] std::vector<OtherVersion> others() const { return census_.others(); }
+  [[nodiscard]] const Census& census() const { return census_; }
 
  private:
   Census census_;
@@ -204,7 +204,10 @@ class FastBackEnd final : public BackEnd {
                                 std::move(doorbell));
   }
 
-  std::vector<OtherVersion> other_versions() override { return discovery_.others(); }
+  std::vector<OtherVersion> other_versions() override { return discovery_.census().others(); }
+  std::string origin_of(const ParticipantId& participant) override {
+    return discovery_.census().origin_of(participant);
+  }
 
  private:
   dds::Topic& topic(const topics::Description& description) {

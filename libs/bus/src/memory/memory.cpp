@@ -62,6 +62,9 @@ class MemoryReader final : public detail::Reader {
     return sealed_for_ == messages_version;
   }
   [[nodiscard]] int matched() const override { return static_cast<int>(port_.matched); }
+  void matched_writers(std::vector<WriterId>& writers) const override {
+    network_->writers_of(port_, writers);
+  }
 
  private:
   std::shared_ptr<MemoryNetwork> network_;

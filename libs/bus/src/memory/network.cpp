@@ -18,6 +18,12 @@ bool fits(const std::string& pattern, const std::string& name) {
 }
 }  // namespace
 
+WriterId id_of(const WriterPort& writer) {
+  WriterId id{};
+  std::memcpy(id.data(), &writer.number, sizeof writer.number);
+  return id;
+}
+
 bool connects(const Port& a, const Port& b) {
   return a.topic->name == b.topic->name && a.topic->descriptor == b.topic->descriptor &&
          (fits(a.partition, b.partition) || fits(b.partition, a.partition));
@@ -112,13 +118,19 @@ void MemoryNetwork::remove(ReaderPort& reader) {
   events.report();
 }
 
+void MemoryNetwork::writers_of(const ReaderPort& reader, std::vector<WriterId>& writers) {
+  const std::lock_guard lock{mutex_};
+  writers.clear();
+  for (const WriterPort* writer : reader.writers) writers.push_back(memory::id_of(*writer));
+}
+
 void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose) {
   // The source time is the time of the plant, the only clock of an in-process stack. Two runs are therefore
   // equal bit for bit.
   const auto time_ns = static_cast<const msg::Header*>(sample)->sample_time_ns;
   const std::lock_guard lock{mutex_};
   Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
-  std::memcpy(stamp.info.writer.data(), &writer.number, sizeof writer.number);
+  stamp.info.writer = memory::id_of(writer);
   std::memcpy(stamp.info.participant.data(), &writer.participant, sizeof writer.participant);
   if (!wire_) stamp.sealed_for = writer.messages_version;
   const auto deliver = [&](const void* arriving) {

@@ -46,6 +46,7 @@ struct WriterPort : Port {
   std::uint64_t number = 0;            ///< assigned by the network, unique in the network
   std::vector<ReaderPort*> readers{};  ///< in order of their creation
 };
+[[nodiscard]] WriterId id_of(const WriterPort& writer);
 struct ReaderPort : Port {
   std::shared_ptr<Doorbell> doorbell;
   SampleQueue queue;
@@ -70,6 +71,7 @@ class MemoryNetwork {
   /// Copies the oldest sample to `sample`. @return its stamp; nothing when the queue is empty
   std::optional<memory::Stamp> take(memory::ReaderPort& reader, void* sample);
   void set_wire(Wire wire);
+  void writers_of(const memory::ReaderPort& reader, std::vector<WriterId>& writers);
   /// @return 1, 2, ...
   [[nodiscard]] std::uint64_t next_participant();
 

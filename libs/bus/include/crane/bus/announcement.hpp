@@ -10,6 +10,8 @@ namespace crane::bus {
 struct Announcement {
   std::uint32_t version = 0;  ///< MESSAGES_VERSION of the program
   std::string crane, participant;
+  std::uint32_t pid = 0;  ///< process id; 0: not announced
+  std::string host{};
   bool operator==(const Announcement&) const = default;
 };
 

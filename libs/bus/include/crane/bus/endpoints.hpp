@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -28,6 +29,9 @@ struct SampleInfo {
   std::int64_t source_time_ns = 0;  ///< clock of the writer; memory: Header.sample_time_ns
   bool valid = false;               ///< false: the sample has no data, only the state of its instance changed
   bool disposed = false;            ///< true: the writer disposed the instance
+  /// false: a sample of a loop topic that is not in the ledger of this bus (crane/bus/ledger.hpp). Without a
+  /// ledger always true.
+  bool entered = true;
   WriterId writer{};
   ParticipantId participant = kUnknownParticipant;
 };
@@ -96,6 +100,12 @@ class UntypedSubscriber {
 
   /// Number of matched writers.
   [[nodiscard]] int matched() const;
+  /// Replaces `writers` by the identifiers of the matched writers. A writer can be missing when its first
+  /// sample is taken.
+  void matched_writers(std::vector<WriterId>& writers) const;
+  /// Origin of a writer, for messages: "crane_tracking, pid 123 on HOST, 0110..." with the GUID prefix. A
+  /// program can announce any name. Empty when nothing is known. Slow: searches the announcements
+  [[nodiscard]] std::string origin_of(const WriterId& writer) const;
   [[nodiscard]] const ReaderCounts& counts() const;
   [[nodiscard]] const topics::Description& topic() const;
 

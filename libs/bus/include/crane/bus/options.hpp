@@ -25,6 +25,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+class Ledger;         ///< crane/bus/ledger.hpp
 class MemoryNetwork;  ///< connects the buses of an in-process stack; all buses of one stack share one network
 
 /// Absolute paths of one participant's files for DDS Security: PEM, or S/MIME for the last two.
@@ -46,6 +47,9 @@ struct Options {
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
   /// needs no credentials.
   std::optional<Credentials> credentials{};
+  /// Loop topics: publishers enter their samples, subscribers report whether a sample was entered
+  /// (SampleInfo::entered). Null: no sample is entered.
+  std::shared_ptr<Ledger> ledger{};
   /// Announced to all participants and part of every CRC. Only tests set another value.
   std::uint32_t messages_version = crane_MESSAGES_VERSION;
 };

@@ -3,7 +3,10 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "crane/bus/bus.hpp"
 #include "crane/runtime/writer_binding.hpp"
@@ -17,12 +20,21 @@ class LoopInput {
   virtual ~LoopInput() = default;
   [[nodiscard]] const WriterBinding& binding() const { return binding_; }
   [[nodiscard]] virtual int matched() const = 0;
+  [[nodiscard]] virtual std::string origin_of(const bus::WriterId& writer) const = 0;
   [[nodiscard]] virtual std::uint64_t rejected() const = 0;  ///< samples with a wrong CRC
   /// Detects a second writer that is matched and has sent no sample. Call once per tick.
-  void watch(std::int64_t now_ns) { binding_.watch(now_ns, matched()); }
+  void watch(std::int64_t now_ns) { binding_.watch(now_ns, matched_writers()); }
 
  protected:
+  virtual void list_writers(std::vector<bus::WriterId>& writers) const = 0;
+  [[nodiscard]] std::span<const bus::WriterId> matched_writers() {
+    list_writers(writers_);
+    return writers_;
+  }
   WriterBinding binding_;
+
+ private:
+  std::vector<bus::WriterId> writers_;  ///< reused, to avoid an allocation per tick
 };
 
 template <class T>
@@ -49,17 +61,28 @@ class LoopReader final : public LoopInput {
       --budget;
       if (!info.valid) continue;
       const Writer writer{info.writer, sample_.header.source, sample_.header.epoch};
+      if (!info.entered) {
+        binding_.refuse_forged(writer, now_ns);
+        continue;
+      }
       if (binding_.is_own(writer, now_ns)) return Taken{sample_, false};
-      const auto verdict = binding_.judge(writer, now_ns, matched());
+      const auto verdict = binding_.judge(writer, now_ns, matched_writers());
       if (verdict == WriterBinding::Verdict::foreign) continue;
       return Taken{sample_, verdict == WriterBinding::Verdict::taken_over};
     }
     return std::nullopt;
   }
   [[nodiscard]] int matched() const override { return subscriber_.matched(); }
+  [[nodiscard]] std::string origin_of(const bus::WriterId& writer) const override {
+    return subscriber_.origin_of(writer);
+  }
   [[nodiscard]] std::uint64_t rejected() const override { return subscriber_.counts().rejected; }
 
  private:
+  void list_writers(std::vector<bus::WriterId>& writers) const override {
+    subscriber_.matched_writers(writers);
+  }
+
   bus::Subscriber<T> subscriber_;
   T sample_{};  ///< newest sample that was taken
 };

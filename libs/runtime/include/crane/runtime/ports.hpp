@@ -82,8 +82,8 @@ class Ports {
   void watch(std::int64_t now_ns);
   /// @return true when a topic that this component reads has had a second writer within the last second
   [[nodiscard]] bool disputed(std::int64_t now_ns) const;
-  /// @return for example "crane/command: a writer that calls itself supervisor, start-up number 4711"; empty
-  ///   when no topic has a second writer
+  /// @return for each topic with a second writer its name and WriterBinding::dispute(); empty when there is
+  ///   none
   [[nodiscard]] std::string dispute(std::int64_t now_ns) const;
   [[nodiscard]] std::uint64_t foreign() const;                       ///< dropped: samples of a second writer
   [[nodiscard]] std::uint64_t rejected() const;                      ///< dropped: samples with a wrong CRC

@@ -51,6 +51,7 @@ struct LoopOptions {
   std::string clock = "realtime";
   std::uint32_t epoch = 0;  ///< start-up number; 0: a random number
   int priority = 50;        ///< SCHED_FIFO priority in realtime, 0 to 98; 0: ordinary scheduling
+  std::string ledger;       ///< path of the ledger of the stack (crane/bus/ledger.hpp); empty: none
   int parent = 0;           ///< process id of the parent; this process ends when the parent ends; 0: none
   bool verbose = false;
 };

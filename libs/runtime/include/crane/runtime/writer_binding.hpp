@@ -1,14 +1,20 @@
 #pragma once
-/// Binds a reader of a loop topic to one writer. Pure; time and the number of matched writers are arguments.
+/// Binds a reader of a loop topic to one writer. Pure; time and the matched writers are arguments.
 ///
 /// The first writer whose kind of process may write the topic is bound, provided that it is the only writer.
 /// A sample from another DDS writer, or with another source or start-up number in its header, is foreign: the
 /// reader drops the sample, and the topic counts as disputed. A restarted process takes over after the bound
 /// writer has sent nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s), so
 /// that the crane waits for an operator when another writer takes over.
+///
+/// Matched writers are compared by their identifiers, not counted: the first sample of a writer can be taken
+/// before DDS counts the writer as matched. A killed process remains matched until its lease ends (10 s).
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "crane/bus/bus.hpp"
 
@@ -38,9 +44,14 @@ class WriterBinding {
     taken_over,  ///< the sample is from a new bound writer; samples of the old writer must be discarded
     foreign      ///< the sample is from another writer and must be dropped
   };
-  /// Judges the origin of a sample that is taken at `now_ns`. @param matched  number of matched writers
-  [[nodiscard]] Verdict judge(const Writer& writer, std::int64_t now_ns, int matched);
-  /// Fast path of judge() for the bound writer, which does not need the number of matched writers. @return
+  /// Judges the origin of a sample that is taken at `now_ns`. @param matched  identifiers of the matched
+  /// writers; the writer of the sample may be missing
+  [[nodiscard]] Verdict judge(const Writer& writer, std::int64_t now_ns,
+                              std::span<const bus::WriterId> matched);
+  /// A sample that no process of the stack has sent (SampleInfo::entered is false): it is foreign, whatever
+  /// writer it names.
+  void refuse_forged(const Writer& writer, std::int64_t now_ns);
+  /// Fast path of judge() for the bound writer, which does not need the matched writers. @return
   /// false for every other writer; then call judge()
   [[nodiscard]] bool is_own(const Writer& writer, std::int64_t now_ns) {
     if (bound_ != writer) return false;
@@ -48,7 +59,7 @@ class WriterBinding {
     return true;
   }
   /// Detects a second writer that is matched and has sent no sample. Call once per tick.
-  void watch(std::int64_t now_ns, int matched);
+  void watch(std::int64_t now_ns, std::span<const bus::WriterId> matched);
 
   /// @return true when a second writer was detected within the last kDispute_ns
   [[nodiscard]] bool disputed(std::int64_t now_ns) const {
@@ -56,20 +67,27 @@ class WriterBinding {
   }
   [[nodiscard]] std::uint64_t foreign() const { return foreign_; }  ///< number of dropped samples
   [[nodiscard]] bool bound() const { return bound_.has_value(); }
-  /// The second writer, for messages: "a writer that calls itself supervisor, start-up number 4711".
-  [[nodiscard]] std::string rival() const;
+  /// Describes a DDS writer, for messages; empty when nothing is known.
+  using OriginOf = std::function<std::string(const bus::WriterId&)>;
+  /// The dispute, for messages: "accepted: supervisor 4711 (ORIGIN), silent for 12 ms; refused: supervisor
+  /// 4712 (ORIGIN), 3 samples". The numbers are start-up numbers; the silence is that of the last detection.
+  [[nodiscard]] std::string dispute(const OriginOf& origin_of) const;
   [[nodiscard]] const topics::Description& topic() const { return *topic_; }
 
  private:
   [[nodiscard]] bool silent(std::int64_t now_ns) const { return now_ns - heard_ns_ >= kSilence_ns; }
-  void bind(const Writer& writer, std::int64_t now_ns, int matched);
+  void bind(const Writer& writer, std::int64_t now_ns, std::span<const bus::WriterId> matched);
   Verdict refuse(const Writer& writer, std::int64_t now_ns);
+  void detected(std::int64_t now_ns);
 
   const topics::Description* topic_;
-  std::optional<Writer> bound_, rival_;
-  std::int64_t heard_ns_ = 0;  ///< time of the last sample of the bound writer
+  std::optional<Writer> bound_;
+  std::optional<Writer> rival_;  ///< the last refused writer; source SOURCE_NONE: it has sent no sample
+  bool forged_ = false;          ///< true: the rival has sent a sample in the name of a process of the stack
+  std::int64_t heard_ns_ = 0;    ///< time of the last sample of the bound writer
   std::optional<std::int64_t> disputed_ns_;
-  int departed_ = 0;  ///< replaced writers that DDS still counts as matched
+  std::int64_t silence_ns_ = 0;          ///< of the bound writer at the last detection
+  std::vector<bus::WriterId> departed_;  ///< replaced writers that DDS still matches
   std::uint64_t foreign_ = 0;
 };
 
