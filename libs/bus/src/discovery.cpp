@@ -28,17 +28,21 @@ bool has_multicast(const std::string& address) {
   return found;
 }
 
-bool is_free(const std::string& address, std::uint32_t port) {
+/// Binds a UDP port for a moment. @param port  0: any. @return the bound port; 0: it is not free
+std::uint32_t bound_port(const std::string& address, std::uint32_t port) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (socket < 0) return false;
+  if (socket < 0) return 0;
   sockaddr_in own{};
   own.sin_family = AF_INET;
   own.sin_port = htons(static_cast<std::uint16_t>(port));
   inet_pton(AF_INET, address.c_str(), &own.sin_addr);
-  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
+  socklen_t length = sizeof own;
+  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&own), length) == 0 &&
+                     ::getsockname(socket, reinterpret_cast<sockaddr*>(&own), &length) == 0;
   ::close(socket);
-  return bound;
+  return bound ? ntohs(own.sin_port) : 0;
 }
+bool is_free(const std::string& address, std::uint32_t port) { return bound_port(address, port) != 0; }
 
 }  // namespace
 
@@ -48,6 +52,12 @@ bool has_free_ports(const Options& options, std::uint32_t number) {
     return is_free(address, port) && is_free(address, port + 1);
   });
 }
+
+bool joins_without_number(const Options& options) {
+  return options.source == crane_SOURCE_OPERATOR || options.source == crane_SOURCE_MONITOR;
+}
+
+std::uint32_t any_free_port(const Options& options) { return bound_port(options.interfaces.front(), 0); }
 
 std::string no_free_number(const Options& options) {
   return "domain " + std::to_string(options.domain) + " has no free participant number on " +

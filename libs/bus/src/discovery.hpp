@@ -18,6 +18,13 @@ namespace crane::bus {
 /// discovery contacts the ports of the participant numbers below this limit. The ports of higher numbers
 /// belong to the next domain. All participants of a process over Cyclone DDS share one number.
 inline constexpr std::uint32_t kMostParticipants = most_participants();
+/// True for operator tools and monitors. When no number is free, they join without a number, with any free
+/// ports: they discover all participants with a number, but not each other. Otherwise any program that binds
+/// the ports of all numbers could prevent a stop.
+[[nodiscard]] bool joins_without_number(const Options& options);
+/// @return a UDP port outside the ports of the domains that was free on the first own interface. Another
+/// process may take it at the next moment.
+[[nodiscard]] std::uint32_t any_free_port(const Options& options);
 /// @return message with cause and remedy for the case that no participant number is free
 [[nodiscard]] std::string no_free_number(const Options& options);
 /// @return true when both ports of the participant number are free on all own interfaces. Another process may

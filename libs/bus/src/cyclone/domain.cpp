@@ -29,7 +29,8 @@ OpenDomains& open_domains() {
 }
 
 /// The configuration is complete, so that the environment variable CYCLONEDDS_URI has no effect.
-std::string configuration(const Options& options) {
+/// @param numbered  false: joins without a participant number
+std::string configuration(const Options& options, bool numbered = true) {
   const auto& own = options.interfaces;
   const bool unicast = discovers_by_unicast(options);
   std::string xml = "<Domain id=\"any\"><General><AllowMulticast>";
@@ -37,7 +38,7 @@ std::string configuration(const Options& options) {
   xml += "</AllowMulticast><Interfaces>";
   for (const auto& address : own) xml += "<NetworkInterface address=\"" + address + "\"/>";
   xml += "</Interfaces></General><Discovery><ParticipantIndex>";
-  xml += unicast ? "auto" : "none";
+  xml += unicast && numbered ? "auto" : "none";
   xml += "</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kMostParticipants);
   xml += "</MaxAutoParticipantIndex>";  // Cyclone DDS uses the indices below this number
   if (unicast) {
@@ -93,7 +94,9 @@ Domain::Domain(const Options& options) : number_{options.domain} {
   const auto found = domains.by_number.find(number_);
   if (found == domains.by_number.end()) {
     no_free_index = false;
-    const dds_entity_t created = dds_create_domain(number_, wanted.c_str());
+    dds_entity_t created = dds_create_domain(number_, wanted.c_str());
+    if (created < 0 && no_free_index && joins_without_number(options))
+      created = dds_create_domain(number_, configuration(options, false).c_str());
     const dds_entity_t entity = checked_entity(created, created < 0 ? cannot_open(options) : "");
     domains.by_number.emplace(number_, Open{entity, wanted, 1});
     return;

@@ -62,7 +62,8 @@ void bind_to_interfaces(dds::DomainParticipantQos& qos, const Options& options) 
   qos.transport().user_transports.push_back(std::move(udp));
 }
 
-void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& options) {
+/// @param numbered  false: the participant joins without a number
+void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& options, bool numbered) {
   auto& builtin = qos.wire_protocol().builtin;
   auto hosts = options.peers;
   hosts.insert(hosts.end(), options.interfaces.begin(), options.interfaces.end());
@@ -78,10 +79,16 @@ void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& op
   builtin.avoid_builtin_multicast = true;
   fastrtps::rtps::Locator_t any;
   any.kind = LOCATOR_KIND_UDPv4;
+  // Port 0: that of the participant number.
+  if (!numbered) any.port = any_free_port(options);
   builtin.metatrafficUnicastLocatorList.push_back(any);
+  if (numbered) return;
+  any.port = any_free_port(options);
+  qos.wire_protocol().default_unicast_locator_list.push_back(any);
 }
 
 dds::DomainParticipantQos participant_qos(const Options& options, int number) {
+  const bool numbered = number < static_cast<int>(kMostParticipants);
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.wire_protocol().participant_id = number;
   qos.name(options.participant);
@@ -96,7 +103,7 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   builtin.typelookup_config.use_server = false;
   bind_to_interfaces(qos, options);
   if (options.credentials) fastdds::secure(qos, *options.credentials);
-  if (discovers_by_unicast(options)) discover_peers_by_unicast(qos, options);
+  if (discovers_by_unicast(options)) discover_peers_by_unicast(qos, options, numbered);
   return qos;
 }
 
@@ -104,16 +111,18 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
 /// discovery contacts only the ports of numbers below kMostParticipants.
 class ParticipantNumber {
  public:
-  /// @throws Error when unicast discovery finds no participant with a free number
+  /// From kMostParticipants on: no number was free, and the participant joins without one.
+  /// @throws Error when unicast discovery finds no free number, and the participant needs one
   explicit ParticipantNumber(const Options& options) {
     const std::lock_guard lock{mutex()};
     const bool unicast = discovers_by_unicast(options);
+    constexpr int kMost = static_cast<int>(kMostParticipants);
     const auto is_taken = [&] {
       return used().contains(number_) ||
-             (unicast && !has_free_ports(options, static_cast<std::uint32_t>(number_)));
+             (unicast && number_ < kMost && !has_free_ports(options, static_cast<std::uint32_t>(number_)));
     };
     for (; is_taken(); ++number_)
-      if (unicast && number_ + 1 >= static_cast<int>(kMostParticipants))
+      if (unicast && number_ + 1 >= kMost && !joins_without_number(options))
         throw Error{"Fast DDS: " + no_free_number(options)};
     used().insert(number_);
   }
