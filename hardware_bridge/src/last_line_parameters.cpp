@@ -15,8 +15,9 @@ void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
     axis.gain_high = crane.trolley_gain_mps2pv;
     axis.gain_low = axis.gain_high * crane.trolley_inertia_kg / (crane.trolley_inertia_kg + load_kg);
   } else if (i == plant::kSlew) {
-    const double reach_m = rig.drives[plant::kTrolley].present ? rig.drives[plant::kTrolley].high_limit : 0;
-    const double outside_kgm2 = (crane.trolley_mass_kg + load_kg) * reach_m * reach_m;
+    const double largest_radius_m =
+        rig.drives[plant::kTrolley].present ? rig.drives[plant::kTrolley].high_limit : 0;
+    const double outside_kgm2 = (crane.trolley_mass_kg + load_kg) * largest_radius_m * largest_radius_m;
     axis.gain_high = crane.slew_gain_radps2pv;
     axis.gain_low = axis.gain_high * crane.jib_inertia_kgm2 / (crane.jib_inertia_kgm2 + outside_kgm2);
   } else {

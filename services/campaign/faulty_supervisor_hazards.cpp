@@ -68,14 +68,15 @@ double frozen_due_ms(const Bench& bench, double volts_v) {
   const double rest_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                   friction.stiction_positive_v, friction.stiction_negative_v});
   const double pull_n = p.load_mass_kg * p.gravity_mps2 * std::sin(rig.limits.swing_limit_rad);
-  const double reach_m = rig.drives[0].present ? rig.drives[0].high_limit : 0;
-  const double outside_kgm2 = (p.trolley_mass_kg + p.load_mass_kg) * reach_m * reach_m;
+  const double largest_radius_m = rig.drives[0].present ? rig.drives[0].high_limit : 0;
+  const double outside_kgm2 = (p.trolley_mass_kg + p.load_mass_kg) * largest_radius_m * largest_radius_m;
   const std::array<double, 3> gains{
       p.trolley_gain_mps2pv * p.trolley_inertia_kg / (p.trolley_inertia_kg + p.load_mass_kg),
       p.slew_gain_radps2pv * p.jib_inertia_kgm2 / (p.jib_inertia_kgm2 + outside_kgm2),
       p.hoist_gain_mpspv / p.hoist_lag_s};
   const std::array<double, 3> pulls_v{pull_n / p.trolley_inertia_kg / p.trolley_gain_mps2pv,
-                                      pull_n * reach_m / p.jib_inertia_kgm2 / p.slew_gain_radps2pv, 0};
+                                      pull_n * largest_radius_m / p.jib_inertia_kgm2 / p.slew_gain_radps2pv,
+                                      0};
   const double net_v = std::abs(volts_v) - 0.5 - 1.5 * rest_v - pulls_v[i];
   const double slowed = i == 2 ? 1.5 : 1;  // lag of the hoist
   const double motion_ms = 1000 * slowed * std::sqrt(2 * 0.005 / (gains[i] * net_v));

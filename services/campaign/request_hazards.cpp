@@ -92,15 +92,15 @@ Injection reset_with_a_foreign_writer(Bench& bench, Random& random) {
 }
 
 Injection refused(Bench& bench, Random& random) {
-  static constexpr std::array kWays{bad_target,
-                                    id_is_zero,
-                                    reset_too_soon,
-                                    reset_while_pressed,
-                                    reset_held,
-                                    arm_without_demand,
-                                    reset_beside_a_foreign_writer,
-                                    reset_with_a_foreign_writer};
-  return kWays[random.pick(kWays.size())](bench, random);
+  static constexpr std::array kRefusedRequests{bad_target,
+                                               id_is_zero,
+                                               reset_too_soon,
+                                               reset_while_pressed,
+                                               reset_held,
+                                               arm_without_demand,
+                                               reset_beside_a_foreign_writer,
+                                               reset_with_a_foreign_writer};
+  return kRefusedRequests[random.pick(kRefusedRequests.size())](bench, random);
 }
 
 Injection bridge_restarts(Bench& bench, Random& random) {
@@ -132,10 +132,10 @@ Injection idle(Bench& bench, Random& /*random*/) {
 }
 
 Injection operator_stops(Bench& bench, Random& random) {
-  static constexpr std::array kWays{std::pair{crane_REQUEST_STOP, crane_CAUSE_OPERATOR_STOP},
-                                    std::pair{crane_REQUEST_DISARM, crane_CAUSE_OPERATOR_DISARM},
-                                    std::pair{crane_REQUEST_ESTOP, crane_CAUSE_OPERATOR_ESTOP}};
-  const auto [request, cause] = kWays[random.pick(kWays.size())];
+  static constexpr std::array kStops{std::pair{crane_REQUEST_STOP, crane_CAUSE_OPERATOR_STOP},
+                                     std::pair{crane_REQUEST_DISARM, crane_CAUSE_OPERATOR_DISARM},
+                                     std::pair{crane_REQUEST_ESTOP, crane_CAUSE_OPERATOR_ESTOP}};
+  const auto [request, cause] = kStops[random.pick(kStops.size())];
   const bool stopping = bench.now().status.state == crane_STATE_STOP_C1;
   bench.every_tick = [&bench, request = request, sent = false]() mutable {
     if (!sent) bench.send(request);

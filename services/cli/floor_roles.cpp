@@ -33,7 +33,7 @@ using ChainSample = std::array<std::uint64_t, (kLargestSample + 7) / 8>;  // beg
 
 /// Calls `measure` once per period. @param measure  returns nothing when the sample was lost
 template <class Measure>
-void pace(FloorBoard& board, const FloorOptions& options, double phase, Measure measure) {
+void measure_every_period(FloorBoard& board, const FloorOptions& options, double phase, Measure measure) {
   while (board.begin_ns == 0) ::usleep(1000);
   auto due_ns = board.begin_ns + static_cast<std::int64_t>(phase * static_cast<double>(options.period_ns));
   for (std::uint64_t tick = 1; board.count < options.ticks; ++tick) {
@@ -81,10 +81,10 @@ class DdsLink {
       ++board.ready;
     }
   }
-  void lead(FloorBoard& board, const FloorOptions& options, double phase) {
+  void measure_round_trips(FloorBoard& board, const FloorOptions& options, double phase) {
     while (!link_.matched()) ::usleep(1000);
     ++board.ready;
-    pace(board, options, phase, [this](std::uint64_t tick) -> std::optional<std::int64_t> {
+    measure_every_period(board, options, phase, [this](std::uint64_t tick) -> std::optional<std::int64_t> {
       ChainSample sample{tick};
       const auto begin_ns = runtime::monotonic_ns();
       const auto end_ns = begin_ns + 100'000'000;  // limits the wait for a lost sample
@@ -131,7 +131,7 @@ UdpChain::~UdpChain() {
 
 void UdpChain::pass(FloorBoard& board, const FloorOptions& options, std::size_t process) const {
   ++board.ready;
-  process == 0 ? lead(board, options) : relay(process);
+  process == 0 ? measure_round_trips(board, options) : relay(process);
 }
 
 void UdpChain::relay(std::size_t process) const {
@@ -140,10 +140,10 @@ void UdpChain::relay(std::size_t process) const {
     if (::recv(sockets_[process], sample.data(), sizeof sample, 0) > 0) send(process, sample.data());
 }
 
-void UdpChain::lead(FloorBoard& board, const FloorOptions& options) const {
+void UdpChain::measure_round_trips(FloorBoard& board, const FloorOptions& options) const {
   constexpr timeval kPatience{.tv_sec = 0, .tv_usec = 100'000};  // limits the wait for a lost datagram
   ::setsockopt(sockets_[0], SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
-  pace(board, options, kUdpPhase, [this](std::uint64_t tick) -> std::optional<std::int64_t> {
+  measure_every_period(board, options, kUdpPhase, [this](std::uint64_t tick) -> std::optional<std::int64_t> {
     ChainSample sample{tick};
     const auto begin_ns = runtime::monotonic_ns();
     send(0, sample.data());
@@ -164,7 +164,7 @@ void UdpChain::send(std::size_t process, const void* sample) const {
 void pass_over_dds(FloorBoard& board, const FloorOptions& options, bus::Vendor vendor, double phase,
                    std::size_t process) {
   DdsLink link{options, vendor, process};
-  process == 0 ? link.lead(board, options, phase) : link.relay(board);
+  process == 0 ? link.measure_round_trips(board, options, phase) : link.relay(board);
 }
 
 void wake_a_thread(FloorBoard& board, const FloorOptions& options) {
@@ -179,7 +179,7 @@ void wake_a_thread(FloorBoard& board, const FloorOptions& options) {
     }
   }};
   ++board.ready;
-  pace(board, options, kFutexPhase, [&](std::uint64_t) -> std::optional<std::int64_t> {
+  measure_every_period(board, options, kFutexPhase, [&](std::uint64_t) -> std::optional<std::int64_t> {
     const auto before = answer.load();
     const auto begin_ns = runtime::monotonic_ns();
     ++call;

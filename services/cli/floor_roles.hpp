@@ -34,7 +34,7 @@ class UdpChain {
 
  private:
   void relay(std::size_t process) const;
-  void lead(FloorBoard& board, const FloorOptions& options) const;
+  void measure_round_trips(FloorBoard& board, const FloorOptions& options) const;
   void send(std::size_t process, const void* sample) const;
   std::array<int, kChainProcesses> sockets_{-1, -1, -1, -1};
   std::array<std::uint16_t, kChainProcesses> ports_{};

@@ -16,7 +16,7 @@ CLI::Validator existing_recording() {
           "RECORDING", "existing recording"};
 }
 
-std::vector<std::filesystem::path> files_in_the_way(const std::filesystem::path& recording) {
+std::vector<std::filesystem::path> existing_files_of(const std::filesystem::path& recording) {
   std::vector<std::filesystem::path> files;
   std::error_code ignored;
   if (std::filesystem::exists(std::filesystem::symlink_status(recording, ignored)))

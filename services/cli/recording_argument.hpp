@@ -9,6 +9,6 @@ namespace crane::cli {
 [[nodiscard]] CLI::Validator existing_recording();
 
 /// Files that a new recording of this name would overwrite or hide: the file, and parts of this name.
-[[nodiscard]] std::vector<std::filesystem::path> files_in_the_way(const std::filesystem::path& recording);
+[[nodiscard]] std::vector<std::filesystem::path> existing_files_of(const std::filesystem::path& recording);
 
 }  // namespace crane::cli

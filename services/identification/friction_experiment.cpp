@@ -231,8 +231,8 @@ class Experiment {
     constexpr double kVoltShare = 0.5, kTravelShare = 0.4;
     double step = std::min(kVoltShare * rig_.drives[options_.axis].volt_limit_v / loop_.stiffness_vpu,
                            kTravelShare * (limits_.high - limits_.low));
-    const double reach_m = std::abs(limits_.load.radius_m.value_or(1)) / limits_.load.cable_m;
-    if (limits_.load.cable_m > 0) step = std::min(step, limits_.swing_rad / reach_m / 2);
+    const double radius_per_cable = std::abs(limits_.load.radius_m.value_or(1)) / limits_.load.cable_m;
+    if (limits_.load.cable_m > 0) step = std::min(step, limits_.swing_rad / radius_per_cable / 2);
     return step;
   }
 
@@ -242,7 +242,7 @@ class Experiment {
     control::Excitation down{.axis = options_.axis, .about = start_[options_.axis]};
     const auto table =
         run_part(name, rig,
-                 scenario_text("a step each way, " + name, 2 * kStepSpacing_s) +
+                 scenario_text("a step in each direction, " + name, 2 * kStepSpacing_s) +
                      excitation_text(kBegin_s, up) + excitation_text(kBegin_s + kStepSpacing_s, down));
     const plant::Coordinate& axis = plant::kCoordinates[options_.axis];
     Steps steps;

@@ -175,15 +175,15 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     auto path = control::path_to(path_space_, from, target);
     if (path.outcome == control::PathOutcome::straight && steps_ && !is_free_for_step(from, target))
       path = {.outcome = control::PathOutcome::around, .points = {{.position = target}}};
-    const bool leads =
+    const bool has_path =
         path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::around;
-    if (leads) move_number_ = number;
+    if (has_path) move_number_ = number;
     if (path.outcome == control::PathOutcome::straight)
       start_straight(move, tick);
     else if (path.outcome == control::PathOutcome::around)
       motion_.start(move, path, path_space_, tick);
     else
-      node().error("no_path", "no path leads from the place where the crane rests to the target",
+      node().error("no_path", "no path has_path from the place where the crane rests to the target",
                    "move the load away from the zones, then to the target");
   }
 

@@ -109,7 +109,7 @@ TEST(Roots, AreThoseOfAChebyshevDiscretisationOfTheDelayedState) {
 TEST(Roots, AreAsManyAsTheIntegralOfTheLogarithmicDerivativeStates) {
   std::mt19937 random{kSeed};
   std::uniform_real_distribution<double> share{0, 1};
-  int told = 0;
+  int compared = 0;
   for (int k = 0; k < 60; ++k) {
     const auto law = static_cast<AntiSwing>(k % 3);
     const auto& kind = kAntiSwingKinds[static_cast<std::size_t>(k % 3)];
@@ -120,14 +120,14 @@ TEST(Roots, AreAsManyAsTheIntegralOfTheLogarithmicDerivativeStates) {
     const double integral = integral_count(f, box, 4000);
     if (std::abs(integral - std::round(integral)) > 0.01)
       continue;  // a root is too near the edge for this quadrature rule
-    ++told;
+    ++compared;
     int found = 0;
     for (const Complex& s : roots_in(f, box.left, box.right, box.top)) found += s.imag() >= box.bottom;
     EXPECT_EQ(found, std::lround(integral)) << kind.name << " " << gains.first << " " << gains.second;
     EXPECT_EQ(count_roots(f, box), std::lround(integral))
         << kind.name << " " << gains.first << " " << gains.second;
   }
-  EXPECT_GT(told, 50) << "seed " << kSeed;
+  EXPECT_GT(compared, 50) << "seed " << kSeed;
 }
 
 TEST(Roots, AreRootsToRoundingAndComeRightMostFirst) {

@@ -52,18 +52,18 @@ class StuckRig final : public bridge::EmulatedRig {
 
 class Bench {
  public:
-  Bench(const configuration::Rig& told, const configuration::Rig& wired, const StuckLines& stuck = {},
+  Bench(const configuration::Rig& stated, const configuration::Rig& wired, const StuckLines& stuck = {},
         Clock clock = {}) {
     auto rig = std::make_unique<StuckRig>(wired, stuck);
     rig_ = rig.get();
-    told_ = told;
-    board_ = std::make_unique<bridge::EmulatedBoard>(told_, std::move(rig));
-    session_ = std::make_unique<Session>(told_, *board_, std::move(clock));
+    stated_ = stated;
+    board_ = std::make_unique<bridge::EmulatedBoard>(stated_, std::move(rig));
+    session_ = std::make_unique<Session>(stated_, *board_, std::move(clock));
   }
   [[nodiscard]] Session& session() { return *session_; }
   void end_session() { session_.reset(); }
   [[nodiscard]] emulated_rig::WiredRig& rig() { return rig_->wired(); }
-  [[nodiscard]] const configuration::Rig& told() const { return told_; }
+  [[nodiscard]] const configuration::Rig& stated() const { return stated_; }
   void pass(std::int64_t duration_ns) { rig_->advance_to(rig_->now_ns() + duration_ns); }
   void expect_safe() {
     EXPECT_EQ(rig().drive_v(), (std::array<double, kDrives>{}));
@@ -72,7 +72,7 @@ class Bench {
   }
 
  private:
-  configuration::Rig told_;
+  configuration::Rig stated_;
   StuckRig* rig_;
   std::unique_ptr<bridge::EmulatedBoard> board_;
   std::unique_ptr<Session> session_;

@@ -45,7 +45,7 @@ class Onlooker {
   std::size_t axis_ = 0;
   double moved_ = 0;
   int questions_ = 0;
-  std::array<double, kDrives> before_ = bench_.told().start.position;
+  std::array<double, kDrives> before_ = bench_.stated().start.position;
 };
 
 /// All combinations of wrong signs of one axis and its swing.

@@ -12,7 +12,7 @@ using Names = std::vector<std::string>;
 
 Names found_on(Bench& bench) {
   Names names;
-  for (const auto& finding : judge(bench.told(), gather(bench.session(), {}))) {
+  for (const auto& finding : judge(bench.stated(), gather(bench.session(), {}))) {
     names.push_back(std::string{name_of(finding.fault)} + ": " + finding.subject);
     EXPECT_EQ(finding.text.find('\n'), std::string::npos);
     EXPECT_GT(finding.text.size(), 40U) << "a line says what to do";
@@ -135,9 +135,9 @@ TEST(Selftest, KeepsEachAxisWithinTheRequiredTravel) {
   Bench bench{tower(), tower()};
   const auto evidence = gather(bench.session(), {});
   const auto& truth = bench.rig().crane().truth();
-  EXPECT_LT(std::abs(truth.trolley_m - bench.told().start.position[0]), 0.1);
+  EXPECT_LT(std::abs(truth.trolley_m - bench.stated().start.position[0]), 0.1);
   EXPECT_LT(std::abs(truth.slew_rad), 0.2);
-  EXPECT_LT(std::abs(truth.cable_m - bench.told().start.position[2]), 0.1);
+  EXPECT_LT(std::abs(truth.cable_m - bench.stated().start.position[2]), 0.1);
   for (const auto& axis : evidence.axis) EXPECT_TRUE(axis.pushed);
 }
 

@@ -132,7 +132,7 @@ bool is_evidence(const Violation& violation, const Place& place) {
 
 /// @return every problem, one a line
 std::string problems_of(Bench& bench, const Place& place, const Case& one) {
-  constexpr double kControlledStop_s = 8.4, kWayToTheLimit_s = 12;
+  constexpr double kControlledStop_s = 8.4, kTravelToTheLimit_s = 12;
   const auto begin_ns = bench.next_tick_ns();
   bool sent = false, runs_away = false;
   bench.publish_fault = [&](const topics::Description& topic, void* sample) {
@@ -152,7 +152,7 @@ std::string problems_of(Bench& bench, const Place& place, const Case& one) {
   const bool replaces_volts = one.always && (place.name.starts_with("crane/demand.total_v") ||
                                              place.name.starts_with("crane/command.drive_v"));
   if (!bench.run_until([&] { return is_braked(bench); },
-                       one.then == Then::stop ? kControlledStop_s : kWayToTheLimit_s) &&
+                       one.then == Then::stop ? kControlledStop_s : kTravelToTheLimit_s) &&
       !replaces_volts)
     found += "  the crane has not stopped\n";
   if (continues && !one.always && bench.now().status.cause == crane_CAUSE_BRIDGE_LATCHED && !was_latched &&

@@ -58,10 +58,10 @@ TEST(RecordingArgument, IsAFileOrTheNameOfParts) {
   EXPECT_THAT(problem(), HasSubstr("no such file, and no parts " + (directory / "run_000001.mcap").string()));
   put_contents(directory / "run_000003.mcap", "x");
   EXPECT_EQ(problem(), "");
-  EXPECT_EQ(files_in_the_way(run).size(), 1U);
+  EXPECT_EQ(existing_files_of(run).size(), 1U);
   put_contents(run, "x");
   EXPECT_EQ(problem(), "");
-  EXPECT_EQ(files_in_the_way(run).size(), 2U);
+  EXPECT_EQ(existing_files_of(run).size(), 2U);
 }
 
 }  // namespace

@@ -23,13 +23,13 @@ TEST(Situation, StatesTheRefusalsOfALockedCraneWithReasons) {
   Situation situation;
   situation.add(*status_at(kSecond_ns, crane_STATE_LOCKED, crane_CAUSE_SWING_LIMIT));
   situation.add(*sample_of(topics::state, msg::State{}, kSecond_ns));
-  const auto told = situation.json(kSecond_ns);
-  EXPECT_EQ(told["state"], "LOCKED");
-  EXPECT_EQ(told["cause"], "SWING_LIMIT");
-  EXPECT_EQ(told["remedy"], "wait until the load swings less, then reset");
-  EXPECT_TRUE(answer_of(told, "reset")["accepted"].get<bool>());
-  EXPECT_EQ(answer_of(told, "arm")["reason"], "the crane is not READY: reset first");
-  EXPECT_TRUE(answer_of(told, "estop")["accepted"].get<bool>());
+  const auto json = situation.json(kSecond_ns);
+  EXPECT_EQ(json["state"], "LOCKED");
+  EXPECT_EQ(json["cause"], "SWING_LIMIT");
+  EXPECT_EQ(json["remedy"], "wait until the load swings less, then reset");
+  EXPECT_TRUE(answer_of(json, "reset")["accepted"].get<bool>());
+  EXPECT_EQ(answer_of(json, "arm")["reason"], "the crane is not READY: reset first");
+  EXPECT_TRUE(answer_of(json, "estop")["accepted"].get<bool>());
 }
 
 /// A crane with a trolley, in `state`.
@@ -50,9 +50,9 @@ nlohmann::ordered_json situation_in(crane_SupervisorState state, bool brake_clos
 
 TEST(Situation, OfACraneThatHoldsOrMovesAcceptsAMove) {
   for (const auto state : {crane_STATE_HOLD, crane_STATE_RUN}) {
-    const auto told = situation_in(state, false, false);
-    EXPECT_TRUE(answer_of(told, "move")["accepted"].get<bool>()) << told.dump();
-    EXPECT_EQ(answer_of(told, "arm")["reason"], "the crane is armed already");
+    const auto json = situation_in(state, false, false);
+    EXPECT_TRUE(answer_of(json, "move")["accepted"].get<bool>()) << json.dump();
+    EXPECT_EQ(answer_of(json, "arm")["reason"], "the crane is armed already");
   }
 }
 
@@ -61,8 +61,8 @@ TEST(Situation, OfACraneWhoseBrakeClosedByItselfRefusesAMove) {
 }
 
 TEST(Situation, StatesThatAnAxisIsBeingHomed) {
-  const auto told = situation_in(crane_STATE_RUN, false, true);
-  EXPECT_EQ(answer_of(told, "move")["reason"], "an axis is being homed: wait for LOCKED, then reset and arm");
+  const auto json = situation_in(crane_STATE_RUN, false, true);
+  EXPECT_EQ(answer_of(json, "move")["reason"], "an axis is being homed: wait for LOCKED, then reset and arm");
 }
 
 TEST(Situation, OfASilentSupervisorDoesNotKeepTheLastStatus) {

@@ -155,8 +155,8 @@ int comedi_get_n_ranges(comedi_t*, unsigned, unsigned) { return 2; }
 /// Ranges: first 5 V; then a range with the steps of the 13-bit converters of the simulated crane.
 comedi_range* comedi_get_range(comedi_t*, unsigned, unsigned, unsigned range) {
   static comedi_range found;
-  const double reach_v = range == ComediStandIn::kGoodRange ? stand_in().range_v : 5;
-  found = {-reach_v + reach_v / 4096, reach_v, UNIT_volt};
+  const double limit_v = range == ComediStandIn::kGoodRange ? stand_in().range_v : 5;
+  found = {-limit_v + limit_v / 4096, limit_v, UNIT_volt};
   return &found;
 }
 lsampl_t comedi_from_phys(double value, comedi_range* range, lsampl_t largest) {

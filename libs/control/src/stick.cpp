@@ -30,26 +30,26 @@ struct RateLimit {
 };
 
 /// The change nearest to `wanted` with which no tick exceeds the acceleration limit.
-double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& pace,
+double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& rate,
                 const PendingChanges& pending) noexcept {
   double low = -1e9, high = 1e9;
   for (std::size_t i = 0; i < shares.count; ++i) {
     const auto& [ticks, weight] = shares.share[i];
-    low = std::max(low, (-pace.change - pending.in(ticks)) / weight);
-    high = std::min(high, (pace.change - pending.in(ticks)) / weight);
+    low = std::max(low, (-rate.change - pending.in(ticks)) / weight);
+    high = std::min(high, (rate.change - pending.in(ticks)) / weight);
   }
   // Rounding may raise the change in a tick above the limit by one unit of the last bit.
   return std::clamp(wanted, std::min(low, 0.0), std::max(high, 0.0));
 }
 
 /// Advances u and s by one tick.
-void advance(const ShaperImpulses& shares, const RateLimit& pace, double wanted, StickAxis& axis) noexcept {
+void advance(const ShaperImpulses& shares, const RateLimit& rate, double wanted, StickAxis& axis) noexcept {
   if (wanted != axis.unshaped) {
-    const double change = feasible(wanted - axis.unshaped, shares, pace, axis.pending);
+    const double change = feasible(wanted - axis.unshaped, shares, rate, axis.pending);
     for (std::size_t i = 0; i < shares.count; ++i) {
       const auto& [ticks, weight] = shares.share[i];
       axis.pending.add(ticks, weight * change);
-      axis.lag += weight * change * static_cast<double>(ticks) * pace.period_s;
+      axis.lag += weight * change * static_cast<double>(ticks) * rate.period_s;
     }
     const double left = wanted - axis.unshaped - change;
     axis.unshaped = std::abs(left) < 1e-12 ? wanted : axis.unshaped + change;
@@ -60,56 +60,56 @@ void advance(const ShaperImpulses& shares, const RateLimit& pace, double wanted,
     axis.speed = axis.unshaped;
     axis.lag = 0;
   }
-  axis.position += (before + axis.speed) / 2 * pace.period_s;
-  axis.acceleration = (axis.speed - before) / pace.period_s;
-  axis.lag -= (axis.unshaped - axis.speed) * pace.period_s;
+  axis.position += (before + axis.speed) / 2 * rate.period_s;
+  axis.acceleration = (axis.speed - before) / rate.period_s;
+  axis.lag -= (axis.unshaped - axis.speed) * rate.period_s;
 }
 
-Reach release_of(const ShaperImpulses& shares, const RateLimit& pace, StickAxis axis) noexcept {
-  Reach reach{axis.position, axis.position};
+PositionRange release_of(const ShaperImpulses& shares, const RateLimit& rate, StickAxis axis) noexcept {
+  PositionRange range{axis.position, axis.position};
   while (axis.unshaped != 0 || !axis.pending.empty()) {
-    advance(shares, pace, 0, axis);
-    reach.low = std::min(reach.low, axis.position);
-    reach.high = std::max(reach.high, axis.position);
+    advance(shares, rate, 0, axis);
+    range.low = std::min(range.low, axis.position);
+    range.high = std::max(range.high, axis.position);
   }
-  return reach;
+  return range;
 }
 
 /// Positions of a stop. If no stop can reach a limit, the function returns only the present position.
-Reach release_in(const StickAxisLimits& limits, const ShaperImpulses& shares, const RateLimit& pace,
-                 const StickAxis& axis) noexcept {
-  const double delay_s = static_cast<double>(shares.share[shares.count - 1].ticks) * pace.period_s;
+PositionRange release_in(const StickAxisLimits& limits, const ShaperImpulses& shares, const RateLimit& rate,
+                         const StickAxis& axis) noexcept {
+  const double delay_s = static_cast<double>(shares.share[shares.count - 1].ticks) * rate.period_s;
   const double longest = limits.speed * (2 * limits.speed / limits.acceleration + 2 * delay_s);
   if (axis.position - longest > limits.low && axis.position + longest < limits.high)
     return {axis.position, axis.position};
-  return release_of(shares, pace, axis);
+  return release_of(shares, rate, axis);
 }
 
-/// Largest u >= 0 whose stop needs at most `room`: u^2 / (2 b) + u m = room, with the braking b of u and the
-/// mean delay m of the shaper.
-double speed_for(double room, double braking, double mean_s) noexcept {
-  if (!(room > 0)) return 0;
-  return braking * (std::sqrt(mean_s * mean_s + 2 * room / braking) - mean_s);
+/// Largest u >= 0 whose stop needs at most `distance`: u^2 / (2 b) + u m = distance, with the braking b of u
+/// and the mean delay m of the shaper.
+double speed_for(double distance, double braking, double mean_s) noexcept {
+  if (!(distance > 0)) return 0;
+  return braking * (std::sqrt(mean_s * mean_s + 2 * distance / braking) - mean_s);
 }
 
 void step_axis(const StickAxisLimits& limits, const ShaperImpulses& shares, double period_s, double wanted,
                StickAxis& axis) noexcept {
   if (!(limits.speed > 0)) return;
-  const RateLimit pace{limits.acceleration * period_s, period_s};
+  const RateLimit rate{limits.acceleration * period_s, period_s};
   const double braking = limits.acceleration / shares.largest_weight, tick_travel = limits.speed * period_s;
   // position at the end of the pending changes, without the braking distance from u
   const double end = axis.position - axis.lag;
   const double up = speed_for(limits.high - end - tick_travel, braking, shares.mean_s);
   const double down = speed_for(end - limits.low - tick_travel, braking, shares.mean_s);
   StickAxis trial = axis;
-  advance(shares, pace, std::clamp(wanted, -down, up), trial);
-  trial.release = release_in(limits, shares, pace, trial);
+  advance(shares, rate, std::clamp(wanted, -down, up), trial);
+  trial.release = release_in(limits, shares, rate, trial);
   const bool inside = trial.release.low >= std::min(limits.low, axis.release.low) &&
                       trial.release.high <= std::max(limits.high, axis.release.high);
   if (!inside) {
     trial = axis;
-    advance(shares, pace, 0, trial);
-    trial.release = release_in(limits, shares, pace, trial);
+    advance(shares, rate, 0, trial);
+    trial.release = release_in(limits, shares, rate, trial);
   }
   axis = trial;
 }

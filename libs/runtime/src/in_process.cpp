@@ -40,15 +40,15 @@ void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& ri
 
 void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& rig,
                          const control::Controller& controller, bus::Bus bus, Clock clock) {
-  Room& room = rooms_.emplace_back(std::move(bus));
-  if (!network_) room.bus.call_on_arrival([this, &room](std::string_view /*topic*/) { arrived(room); });
-  room.hosted = std::make_unique<HostedComponent>(room.bus, spec, rig, controller, clock,
-                                                  clock == Clock::realtime ? monotonic_ns : nullptr);
+  Entry& entry = entries_.emplace_back(std::move(bus));
+  if (!network_) entry.bus.call_on_arrival([this, &entry](std::string_view /*topic*/) { arrived(entry); });
+  entry.hosted = std::make_unique<HostedComponent>(entry.bus, spec, rig, controller, clock,
+                                                   clock == Clock::realtime ? monotonic_ns : nullptr);
 }
 
 /// Runs in the thread that delivers the sample: a thread of the vendor, or the thread of pump().
-void InProcessStack::arrived(Room& room) {
-  room.has_samples = true;
+void InProcessStack::arrived(Entry& entry) {
+  entry.has_samples = true;
   {
     const std::lock_guard lock{mutex_};
     arrived_ = true;
@@ -68,12 +68,12 @@ bool InProcessStack::pump() {
       const std::lock_guard lock{mutex_};
       arrived_ = false;
     }
-    for (auto& room : rooms_) {
+    for (auto& entry : entries_) {
       const bool has_samples =
-          network_ ? room.bus.wait(std::chrono::nanoseconds{0}) : room.has_samples.exchange(false);
+          network_ ? entry.bus.wait(std::chrono::nanoseconds{0}) : entry.has_samples.exchange(false);
       if (!all && !has_samples) continue;
       const auto now_ns = network_ ? begin_ns : monotonic_ns();
-      progress = room.hosted->component().poll(now_ns) || progress;
+      progress = entry.hosted->component().poll(now_ns) || progress;
     }
     anything = anything || progress;
   }
@@ -81,7 +81,7 @@ bool InProcessStack::pump() {
 }
 
 void InProcessStack::wait(std::int64_t latest_ns) {
-  for (const auto& room : rooms_) latest_ns = std::min(latest_ns, room.hosted->component().wake_at_ns());
+  for (const auto& entry : entries_) latest_ns = std::min(latest_ns, entry.hosted->component().wake_at_ns());
   std::unique_lock lock{mutex_};
   arrival_.wait_until(lock, std::chrono::steady_clock::time_point{std::chrono::nanoseconds{latest_ns}},
                       [this] { return arrived_; });
@@ -89,9 +89,9 @@ void InProcessStack::wait(std::int64_t latest_ns) {
 
 std::string InProcessStack::waiting_for() const {
   std::string lines;
-  for (const auto& room : rooms_)
+  for (const auto& entry : entries_)
     lines +=
-        std::string{room.hosted->component().name()} + ": " + room.hosted->component().waiting_for() + '\n';
+        std::string{entry.hosted->component().name()} + ": " + entry.hosted->component().waiting_for() + '\n';
   return lines;
 }
 

@@ -194,8 +194,8 @@ Eigen::Vector3d load_velocity_mps(const Parameters& p, const State& s) noexcept 
 }
 
 double energy_j(const Parameters& p, const State& s) noexcept {
-  const double reach_m = p.tilt_cosine * s.trolley_m, height_m = p.tilt_sine * s.trolley_m;
-  const double slewing = p.jib_inertia_kgm2 + p.trolley_mass_kg * reach_m * reach_m;
+  const double radius_m = p.tilt_cosine * s.trolley_m, height_m = p.tilt_sine * s.trolley_m;
+  const double slewing = p.jib_inertia_kgm2 + p.trolley_mass_kg * radius_m * radius_m;
   const double kinetic =
       0.5 * (p.trolley_inertia_kg * s.trolley_mps * s.trolley_mps + slewing * s.slew_radps * s.slew_radps +
              p.load_mass_kg * load_velocity_mps(p, s).squaredNorm());

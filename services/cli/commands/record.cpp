@@ -69,9 +69,9 @@ class Progress {
   double next_s_ = 0;
 };
 
-/// @throws configuration::ConfigurationError when a file is in the way
-void make_way(const RecordOptions& options) {
-  for (const auto& file : files_in_the_way(options.recorder.file)) {
+/// @throws configuration::ConfigurationError when a file exists and --force is not given
+void remove_existing_files(const RecordOptions& options) {
+  for (const auto& file : existing_files_of(options.recorder.file)) {
     require_new(file, options.force);
     std::error_code ignored;  // the recorder reports a file that it cannot create
     const bool replaced = file == options.recorder.file && !options.recorder.limits.split();
@@ -86,7 +86,7 @@ int record(RecordOptions options) {
     (void)configuration::load_rig(rig);  // reports the problems of the file
     options.recorder.rig_text = configuration::file_text(rig);
   }
-  make_way(options);
+  remove_existing_files(options);
   auto bus = open_bus(options.bus, crane_SOURCE_RECORDER);
   recorder::Recorder recorder{bus, options.recorder};
   Progress progress{bus.options()};

@@ -166,12 +166,12 @@ TEST(Spline, IsReproducedByItsAccelerationIntegratedTwice) {
   for (double speed = 0.3; measured.size() < 300; speed += 0.02 * any(random))
     measured.push_back(measured.back() + kPeriod_s * speed);
   const Motion motion = spline(measured, kPeriod_s);
-  double way = measured[0], speed = motion.rate[0];
+  double position = measured[0], speed = motion.rate[0];
   for (std::size_t k = 0; k + 1 < measured.size(); ++k) {
-    ASSERT_NEAR(way, measured[k], 1e-9) << "seed " << seed << ", row " << k;
+    ASSERT_NEAR(position, measured[k], 1e-9) << "seed " << seed << ", row " << k;
     ASSERT_NEAR(speed, motion.rate[k], 1e-7) << "seed " << seed << ", row " << k;
     const double a = motion.acceleration[k], b = motion.acceleration[k + 1];
-    way += kPeriod_s * speed + kPeriod_s * kPeriod_s * (2 * a + b) / 6;
+    position += kPeriod_s * speed + kPeriod_s * kPeriod_s * (2 * a + b) / 6;
     speed += 0.5 * kPeriod_s * (a + b);
   }
 }

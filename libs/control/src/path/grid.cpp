@@ -102,7 +102,7 @@ class Grid {
     for_each_near(from_, [&](int node) {
       const Leg leg = end_leg(space_, from_, place(node));
       if (leg.is_free)
-        reach(node, kFromStart, leg.duration_s);
+        relax(node, kFromStart, leg.duration_s);
       else
         blocking_[leg.zone] = 1;
     });
@@ -123,7 +123,7 @@ class Grid {
         if (const int node = k * trolley_.count + i; is_open(node)) visit(node);
   }
 
-  void reach(int node, int parent, double cost_s) {
+  void relax(int node, int parent, double cost_s) {
     if (cost_s >= cost_s_[index(node)]) return;
     cost_s_[index(node)] = cost_s;
     parent_[index(node)] = parent;
@@ -133,7 +133,7 @@ class Grid {
   void expand(int node) {
     const int column = node % trolley_.count, row = node / trolley_.count;
     if (to_target_s_[index(node)] < kUnreached)
-      reach(target_, node, cost_s_[index(node)] + to_target_s_[index(node)]);
+      relax(target_, node, cost_s_[index(node)] + to_target_s_[index(node)]);
     for (int k = std::max(0, row - 1); k <= std::min(slew_.count - 1, row + 1); ++k)
       for (int i = std::max(0, column - 1); i <= std::min(trolley_.count - 1, column + 1); ++i) {
         const int next = k * trolley_.count + i;
@@ -142,7 +142,7 @@ class Grid {
             edges_[4 * index(std::min(column, i)) + (k != row ? 2U : 0U) + (i != column ? 1U : 0U)];
         if (!is_free(node, next, edge.distance_m)) continue;
         const double speed_mps = std::min(pass_mps_[index(node)], pass_mps_[index(next)]);
-        reach(next, node, cost_s_[index(node)] + std::max(edge.full_s, edge.distance_m / speed_mps));
+        relax(next, node, cost_s_[index(node)] + std::max(edge.full_s, edge.distance_m / speed_mps));
       }
   }
 

@@ -62,17 +62,17 @@ PerAxis completed(const PathSpace& space, PerAxis position) noexcept {
 }
 
 ClosestZone closest_zone(const PathSpace& space, const PerAxis& position) noexcept {
-  const auto reach = resting_reach(space.clearance, space.gravity_mps2, position[kTrolley], position[kSlew],
-                                   position[kHoist]);
+  const auto reached = resting_reach(space.clearance, space.gravity_mps2, position[kTrolley], position[kSlew],
+                                     position[kHoist]);
   ClosestZone closest{.clearance_m = std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < space.zones.size(); ++i) {
     const Zone& zone = space.zones[i];
     const bool box = zone.shape == ZoneShape::box;
     const double bound_m =
-        std::max(std::abs(reach.x_m - zone.position_x_m) - (box ? zone.size_x_m / 2 : zone.radius_m),
-                 std::abs(reach.y_m - zone.position_y_m) - (box ? zone.size_y_m / 2 : zone.radius_m));
-    if (bound_m - reach.radius_m > closest.clearance_m) continue;  // lower bound of the horizontal distance
-    const double gap_m = clearance_m(zone, reach, space.clearance.suspension_height_m);
+        std::max(std::abs(reached.x_m - zone.position_x_m) - (box ? zone.size_x_m / 2 : zone.radius_m),
+                 std::abs(reached.y_m - zone.position_y_m) - (box ? zone.size_y_m / 2 : zone.radius_m));
+    if (bound_m - reached.radius_m > closest.clearance_m) continue;  // lower bound of the horizontal distance
+    const double gap_m = clearance_m(zone, reached, space.clearance.suspension_height_m);
     if (!(gap_m >= closest.clearance_m)) closest = {gap_m, i};  // a zone with NaN counts as the closest
   }
   return closest;

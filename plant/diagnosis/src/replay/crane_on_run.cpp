@@ -166,9 +166,9 @@ void Replay::CraneOnRun::simulate_inner_coordinates() {
   }
   for (std::size_t i = 0; i < model.inner_coordinates(); ++i) {
     if (!prescribed[i]) continue;
-    std::vector<double> way;
-    for (const plant::InnerState& at : inner_at) way.push_back(at[i].position);
-    inner[i] = spline(way, source.run.period_s);
+    std::vector<double> position;
+    for (const plant::InnerState& at : inner_at) position.push_back(at[i].position);
+    inner[i] = spline(position, source.run.period_s);
   }
 }
 

@@ -84,15 +84,15 @@ double scatter(const std::vector<double>& all, const std::vector<double>& beside
 }
 
 /// Simulated outputs of every run in open loop, by row.
-std::vector<std::vector<double>> ways(const Problem& whole, const Crane& crane) {
+std::vector<std::vector<double>> simulated_outputs(const Problem& whole, const Crane& crane) {
   std::vector<std::vector<double>> all;
   const Replays replays = replays_of(whole.runs(), crane);
   const Fits fits = whole.fit(replays);
   for (std::size_t w = 0; w < fits.size(); ++w) {
     const std::size_t run = whole.windows()[w].run, rows = whole.runs()[run].run.rows();
     const Eigen::VectorXd& start = fits[w].start;
-    std::vector<double>& way = all.emplace_back(rows * whole.outputs().size());
-    replays[run].run(whole.part(), 0, rows, {start.data(), static_cast<std::size_t>(start.size())}, way);
+    std::vector<double>& outputs = all.emplace_back(rows * whole.outputs().size());
+    replays[run].run(whole.part(), 0, rows, {start.data(), static_cast<std::size_t>(start.size())}, outputs);
   }
   return all;
 }
@@ -106,7 +106,8 @@ std::vector<Trace> traces(const Study& study, const Study& as_measured, const Ef
         {&study.test_load(), &as_measured.test_load()}}) {
     const Problem whole(problem->runs(), problem->part(), kWholeRun, 0);
     const Problem whole_as_measured(problem_as_measured->runs(), problem->part(), kWholeRun, 0);
-    const auto before = ways(whole_as_measured, study.base()), after = ways(whole, study.with(effects));
+    const auto before = simulated_outputs(whole_as_measured, study.base()),
+               after = simulated_outputs(whole, study.with(effects));
     for (std::size_t w = 0; w < whole.windows().size(); ++w) {
       const std::size_t number = whole.windows()[w].run;
       const Run& run = whole_as_measured.runs()[number].run;

@@ -61,11 +61,11 @@ std::vector<MovingStretch> moving_stretches(const PreparedRun& run, std::size_t 
 
 /// In place, from rest; each acceleration lasts one row.
 void integrate_twice(MatrixXd& x, double period_s) {
-  Eigen::RowVectorXd way = Eigen::RowVectorXd::Zero(x.cols()), speed = way;
+  Eigen::RowVectorXd distance = Eigen::RowVectorXd::Zero(x.cols()), speed = distance;
   for (Index k = 0; k < x.rows(); ++k) {
     const Eigen::RowVectorXd acceleration = x.row(k);
-    x.row(k) = way;
-    way += period_s * (speed + 0.5 * period_s * acceleration);
+    x.row(k) = distance;
+    distance += period_s * (speed + 0.5 * period_s * acceleration);
     speed += period_s * acceleration;
   }
 }
@@ -73,22 +73,22 @@ void integrate_twice(MatrixXd& x, double period_s) {
 /// Distance of the model from rest at `first`, at the rows' own times, by the increments of each row.
 VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::size_t first,
                         std::size_t row_count) {
-  VectorXd way(static_cast<Index>(row_count));
+  VectorXd distance(static_cast<Index>(row_count));
   std::vector<double> position{0}, speed{0};
   for (std::size_t k = 0; k < row_count; ++k) {
-    way[static_cast<Index>(k)] = position[k];
+    distance[static_cast<Index>(k)] = position[k];
     position.push_back(position[k] + run.period_s * speed[k] + drive.distance[first + k]);
     speed.push_back(speed[k] + drive.speed_change[first + k]);
   }
-  if (run.offset_s.empty()) return way;
+  if (run.offset_s.empty()) return distance;
   for (std::size_t k = 0; k < row_count; ++k) {
     const double offset_s = run.offset_s[first + k];
     const std::size_t from = offset_s < 0 && k > 0 ? k - 1 : k;
     const double t = from < k ? offset_s + run.period_s : offset_s, share = t / run.period_s;
-    way[static_cast<Index>(k)] =
+    distance[static_cast<Index>(k)] =
         position[from] + t * speed[from] + share * share * drive.distance[first + from];
   }
-  return way;
+  return distance;
 }
 
 /// Residual of a piece in units of the sensor value, because a scale of the sensor must not reduce the
@@ -96,7 +96,7 @@ VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::si
 VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive, Output axis,
                         std::size_t first, std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);
-  const VectorXd way = model_distance(run.run, drive, first, row_count);
+  const VectorXd distance = model_distance(run.run, drive, first, row_count);
   const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
   const std::size_t last = first + row_count - 1;
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
@@ -104,7 +104,8 @@ VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive,
   for (std::size_t k = 0; k < row_count; ++k) {
     if (!run.run.is_measured(axis, first + k)) continue;
     const double noise = run.run.measured[axis][first + k] - shown[first + k];
-    left[static_cast<Index>(k)] = noise + scale * (true_position[first + k] - way[static_cast<Index>(k)]);
+    left[static_cast<Index>(k)] =
+        noise + scale * (true_position[first + k] - distance[static_cast<Index>(k)]);
   }
   return left;
 }

@@ -27,7 +27,7 @@ std::string called(const std::string& what, const Runs& runs) {
 /// Problems of runs with too little motion.
 void add_problems(const std::string& what, const Runs& runs, double least_s, const configuration::Rig& rig,
                   std::vector<std::string>& problems) {
-  constexpr double kLeastRate = 0.01, kLeastWay = 0.005;
+  constexpr double kLeastRate = 0.01, kLeastTravel = 0.005;
   if (total_s(runs) < least_s)
     problems.push_back((std::ostringstream{} << called(what, runs) << ": " << total_s(runs)
                                              << " s in all: at least " << least_s << " s")
@@ -39,11 +39,11 @@ void add_problems(const std::string& what, const Runs& runs, double least_s, con
       const auto [low, high] = std::minmax_element(motion.position.begin(), motion.position.end());
       double fastest = 0;
       for (const double rate : motion.rate) fastest = std::max(fastest, std::abs(rate));
-      moves = moves || (fastest > kLeastRate && *high - *low > kLeastWay);
+      moves = moves || (fastest > kLeastRate && *high - *low > kLeastTravel);
     }
   if (!moves)
     problems.push_back((std::ostringstream{} << called(what, runs) << ": nothing of " << rig.name
-                                             << " moves by more than " << kLeastWay << " and faster than "
+                                             << " moves by more than " << kLeastTravel << " and faster than "
                                              << kLeastRate << " /s (m or rad): record a motion")
                            .str());
 }

@@ -38,7 +38,7 @@ class FarSide {
   [[nodiscard]] double own_share(const Parameters& crane, const State& seen) const {
     if (!slew_ || !carries()) return 1;
     const double own = own_inertia(crane);
-    return own / (own + crane.trolley_mass_kg * reach_m(crane, seen) * reach_m(crane, seen));
+    return own / (own + crane.trolley_mass_kg * radius_m(crane, seen) * radius_m(crane, seen));
   }
   /// Force P of the load on the far side, with the cable tension of a load at rest, N or N m. On a trolley, P
   /// includes the weight of the trolley along a tilted jib.
@@ -47,7 +47,7 @@ class FarSide {
                  sf = std::sin(seen.radial_rad);
     const double tension_n =
         crane.load_mass_kg * crane.gravity_mps2 * ct * (cf * crane.tilt_cosine + sf * crane.tilt_sine);
-    return slew_ ? tension_n * std::sin(seen.tangential_rad) * reach_m(crane, seen)
+    return slew_ ? tension_n * std::sin(seen.tangential_rad) * radius_m(crane, seen)
                  : -tension_n * ct * sf - crane.trolley_mass_kg * crane.gravity_mps2 * crane.tilt_sine;
   }
   /// Adds the force on the motor when the connection accelerates the inertia j J by `connection`, m/s2 or
@@ -59,7 +59,7 @@ class FarSide {
   /// Acceleration of the far side relative to the ground, m/s2 or rad/s2.
   [[nodiscard]] double acceleration(const Parameters& crane, const State& seen, double connection) const {
     if (!carries()) return connection;
-    const double coriolis_nm = slew_ ? 2 * crane.trolley_mass_kg * reach_m(crane, seen) * crane.tilt_cosine *
+    const double coriolis_nm = slew_ ? 2 * crane.trolley_mass_kg * radius_m(crane, seen) * crane.tilt_cosine *
                                            seen.trolley_mps * seen.slew_radps
                                      : 0;
     return own_share(crane, seen) *
@@ -72,7 +72,7 @@ class FarSide {
 
  private:
   /// Horizontal distance of the trolley from the slew axis.
-  [[nodiscard]] static double reach_m(const Parameters& crane, const State& seen) {
+  [[nodiscard]] static double radius_m(const Parameters& crane, const State& seen) {
     return crane.tilt_cosine * seen.trolley_m;
   }
   bool slew_;

@@ -77,15 +77,15 @@ class PendingChanges {
 };
 
 /// Lowest and highest position of a motion.
-struct Reach {
+struct PositionRange {
   double low = 0, high = 0;
 };
 
 struct StickAxis {
   double position = 0, speed = 0, acceleration = 0;  ///< s; the acceleration is that of the last tick
   double unshaped = 0;                               ///< u, unit/s
-  double lag = 0;       ///< integral of u - v over the pending ticks while u is constant, unit
-  Reach release{0, 0};  ///< positions during the stop that a release in this tick causes
+  double lag = 0;               ///< integral of u - v over the pending ticks while u is constant, unit
+  PositionRange release{0, 0};  ///< positions during the stop that a release in this tick causes
   PendingChanges pending;
   double load_offset = 0, load_offset_rate = 0;  ///< q - s and its derivative; 0 for the hoist
 };

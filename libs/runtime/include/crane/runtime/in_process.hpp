@@ -41,26 +41,26 @@ class InProcessStack {
   void wait(std::int64_t latest_ns);
   /// @return one line per component: its name and the inputs for which it waits
   [[nodiscard]] std::string waiting_for() const;
-  [[nodiscard]] Component& component(std::size_t index) { return rooms_.at(index).hosted->component(); }
-  [[nodiscard]] std::size_t size() const { return rooms_.size(); }
-  [[nodiscard]] Node& node(std::size_t index) { return rooms_.at(index).hosted->node(); }
+  [[nodiscard]] Component& component(std::size_t index) { return entries_.at(index).hosted->component(); }
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  [[nodiscard]] Node& node(std::size_t index) { return entries_.at(index).hosted->node(); }
 
  private:
-  struct Room {
-    explicit Room(bus::Bus own) : bus{std::move(own)} {}
+  struct Entry {
+    explicit Entry(bus::Bus own) : bus{std::move(own)} {}
     std::atomic<bool> has_samples = false;  ///< real time: a sample has arrived since the last poll
     bus::Bus bus;
     std::unique_ptr<HostedComponent> hosted;
   };
   void add(const ComponentSpec& spec, const configuration::Rig& rig, const control::Controller& controller,
            bus::Bus bus, Clock clock);
-  void arrived(Room& room);
+  void arrived(Entry& entry);
 
   std::shared_ptr<bus::MemoryNetwork> network_;  ///< null in real time
   std::mutex mutex_;                             ///< protects arrived_
   std::condition_variable arrival_;
   bool arrived_ = false;  ///< a sample has arrived since the last pass of pump()
-  std::deque<Room> rooms_;
+  std::deque<Entry> entries_;
 };
 
 /// Options for a Bus on `network`.

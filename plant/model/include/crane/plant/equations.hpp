@@ -31,8 +31,8 @@ struct Accelerations {
 /// prescribed.
 struct Locks {
   std::array<bool, kAxes> axis{};
-  /// Acceleration of each locked axis: 0 for a held axis (its rate must be 0), otherwise the prescribed
-  /// acceleration.
+  /// Acceleration of each locked axis: 0 for an axis that a brake holds (its rate must be 0), otherwise
+  /// prescribed.
   PerAxis acceleration{};
   bool radial = false;      ///< true: phi is held
   bool tangential = false;  ///< true: theta is held
