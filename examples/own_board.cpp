@@ -1,5 +1,5 @@
-/// A board of one's own behind the hardware bridge: three motors without friction and load. The example runs
-/// the whole stack on it in lockstep and moves the trolley by 10 cm.
+/// Adds a board behind the hardware bridge without a change to the project: three motors without friction and
+/// load. The example runs the whole stack with this board in lockstep and moves the trolley by 10 cm.
 #include <cmath>
 #include <cstdio>
 #include <optional>

@@ -1,5 +1,5 @@
-/// A control law of one's own without a change to the project: state feedback with eight gains, run in
-/// lockstep on the simulated tower crane, and compared with the controller of the rig file.
+/// Adds a control law without a change to the project: state feedback with eight gains. The example runs the
+/// law in lockstep on the simulated tower crane and compares it with the controller of the rig file.
 #include <cstdio>
 
 #include "crane/control/state_feedback.hpp"

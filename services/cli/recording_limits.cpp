@@ -52,8 +52,8 @@ void add_limit_options(CLI::App& command, LimitOptions& options, const std::stri
   command
       .add_option(
           prefix + "quota", options.quota,
-          "delete the oldest parts of this recording before all parts together exceed this size; "
-          "at least the size of two parts; without a size of the parts, a part has a tenth of this size")
+          "delete the oldest parts of this recording before all parts together exceed this size; at least "
+          "twice the size of a part; default size of a part: a tenth of this size, at least 1MB")
       ->type_name("SIZE");
 }
 

@@ -57,7 +57,7 @@ void add_doctor(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<DoctorOptions>();
   options->examined.bus = tool_bus();
   auto* command = app.add_subcommand(
-      "doctor", "Find faults of network, real-time settings and board, each with its remedy");
+      "doctor", "Find faults of network, real-time settings and board, and print the remedy of each");
   command->add_flag("--net", options->network,
                     "check interfaces, multicast, processes, domain and crane, versions, quality of service");
   command->add_flag("--rt", options->real_time,

@@ -126,8 +126,9 @@ int home(const HomeOptions& options) {
 
 void add_home(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<HomeOptions>();
-  auto* command =
-      app.add_subcommand("home", "Home axes: each moves slowly to its mark, which makes its position known");
+  auto* command = app.add_subcommand(
+      "home",
+      "Home the axes one after another: an axis moves slowly to its mark, then its position is known");
   command
       ->add_option("--axis", options->axes,
                    "trolley, slew or hoist (repeatable); default: all axes that are not homed")

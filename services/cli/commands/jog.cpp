@@ -101,12 +101,13 @@ void add_jog(CLI::App& app, Action& chosen) {
           "duration of the deflection in s; the supervisor releases a stick that is deflected for 60 s")
       ->check(number_in(0.02, 50.0))
       ->capture_default_str();
-  command->add_flag("--micro", options->stick.micro, "micro-speed: a tenth of the speed; the key m ends it");
-  command->add_flag("--inch", options->stick.inching, "keyboard: inching; the key i ends it");
+  command->add_flag("--micro", options->stick.micro,
+                    "begin at micro-speed, a tenth of the speed; keyboard: the key m ends micro-speed");
+  command->add_flag("--inch", options->stick.inching, "keyboard: begin with inching; the key i ends inching");
   command
       ->add_option_function<std::string>(
           "--step", [options](const std::string& text) { options->stick.step_m = step_of(text); },
-          "step of inching, 0.5 mm to 50 mm; the slew axis moves by this arc at the trolley (default: 2mm)")
+          "step of inching, 0.5 mm to 50 mm; slew axis: arc at the radius of the trolley (default: 2mm)")
       ->type_name("LENGTH");
   command
       ->add_option("--axes", options->axes,
@@ -140,9 +141,9 @@ void add_jog(CLI::App& app, Action& chosen) {
       "stick was last released.\n"
       "Steps and returns are moves: the supervisor checks them like `crane move`. During a move, space, q,\n"
       "Ctrl-C and a closed terminal stop the crane, which then locks.\n"
-      "The crane stops when this program ends, sends nothing for 0.1 s, or deflects for a minute without a\n"
-      "break; a deflection acts again after the keys have been released. Only SIGKILL during a step or a\n"
-      "return lets the crane reach the target of the move.");
+      "The crane stops when this program ends, sends nothing for 0.1 s, or holds a deflection for a minute\n"
+      "without a break; a deflection acts again after the keys have been released. Exception: if SIGKILL\n"
+      "ends this program during a step or a return, the crane continues to the target of the move.");
   command->callback([options, &chosen] {
     const bool any = options->selected != std::array<bool, 3>{};
     for (std::size_t i = 0; i < options->stick.selected.size(); ++i)

@@ -42,7 +42,7 @@ int status(const StatusOptions& options) {
 
 void add_status(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<StatusOptions>();
-  auto* command = app.add_subcommand("status", "Show processes, safety state with its remedy, and axes");
+  auto* command = app.add_subcommand("status", "Show processes, safety state with the next step, and axes");
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_option("--timeout", options->timeout_s, "longest wait for a sample in s")
       ->check(CLI::PositiveNumber)

@@ -187,8 +187,8 @@ void add_zone(CLI::App& app, Action& chosen) {
       "zone", "List, learn and remove no-go zones of a rig file, and find paths around them");
   group->require_subcommand(1);
   group->footer(
-      "The supervisor keeps load, hook and cable out of the zones; docs/zones.md states how, and what it "
-      "cannot prevent.");
+      "The supervisor keeps load, hook and cable out of the zones; docs/zones.md describes the method and "
+      "its limits.");
   auto* listing = add_command(*group, "list", "List the zones", options);
   listing->add_flag("--json", options->json, "print a JSON array");
   listing->callback([options, &chosen] { chosen = [options] { return list(*options); }; });

@@ -11,7 +11,7 @@ struct EnvelopeInput {
   double swing_tangential_rad = 0;
   AxisFlags limit_low{}, limit_high{};  ///< limit switches
   double speed_share = 1;               ///< share of max_speed that the operating mode permits, (0, 1]
-  AxisFlags unknown{};  ///< true: position without known origin; only the creeping speed is limited
+  AxisFlags unknown{};  ///< true: the position has no known origin; only the speed of homing is limited
 };
 
 /// true: the limit is violated.

@@ -10,10 +10,10 @@ namespace crane::supervisor {
 enum class HomingPhase : std::uint8_t {
   leave_at_first,  ///< away from the mark; only when the axis starts at its mark
   search,          ///< towards the mark at the homing speed, until the mark is active
-  back_off,        ///< away from the mark, until the axis is `back_off` beyond the opening of the switch
-  approach,        ///< towards the mark at the approach speed, until the mark is active
-  leave,           ///< as back_off; during this phase the bridge must report the mark as found
-  done             ///< the position is known; the speed is 0
+  back_off,  ///< away from the mark, until the axis is `back_off` beyond the point at which the switch opened
+  approach,  ///< towards the mark at the approach speed, until the mark is active
+  leave,     ///< as back_off; during this phase the bridge must report the mark as found
+  done       ///< the position is known; the speed is 0
 };
 
 struct HomingInput {

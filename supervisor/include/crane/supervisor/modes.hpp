@@ -20,7 +20,7 @@ enum class Moves : std::uint8_t {
 };
 
 /// Longest move of Moves::short_steps, m: an inching step of 20 mm plus a position error of 10 mm at rest.
-/// For the slewing jib m of arc at the present radius of the trolley, at least 0.1 m.
+/// Slew axis: m of arc at the present radius of the trolley; a radius below 0.1 m counts as 0.1 m.
 inline constexpr double kShortStep_m = 0.03;
 
 struct ModeRule {

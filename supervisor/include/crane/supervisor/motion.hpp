@@ -43,7 +43,7 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
 [[nodiscard]] bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
                                 const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;
 
-/// The watchdog permission since it was withheld.
+/// Time since the watchdog permission is withheld.
 struct RelayMemory {
   bool withheld = false;  ///< true: `since_s` is valid
   double since_s = 0;     ///< time of the first tick without permission, clock of the supervisor

@@ -35,10 +35,10 @@ struct Sample {
 [[nodiscard]] PendulumInput pendulum_input(const Sample& sample) noexcept;
 
 struct TickInput {
-  double now_s = 0;  ///< clock of the supervisor, never runs backwards; silence and idle time are measured
-                     ///< with this clock
+  /// Clock of the supervisor, never runs backwards; it measures silence and idle time.
+  double now_s = 0;
   std::uint64_t tick = 0;
-  bool state_arrived = false;  ///< false: no state arrived in time; the step is executed without a state
+  bool state_arrived = false;  ///< false: no state arrived in time; the step runs without a state
   Sample sample{};  ///< valid when state_arrived; a sample with a value that is not finite counts as missing
   /// true: a new bridge writes crane/state from this tick on; its ticks start at 0
   bool bridge_restarted = false;
@@ -106,7 +106,7 @@ struct TickOutput {
   HomingFailure homing_failure = HomingFailure::none;  ///< result of the last homing
   bool watchdog_permission = false;
   bool stop_motion = false;
-  std::size_t zone = 0;  ///< Cause::zone: index of the zone that is closest to the reached space
+  std::size_t zone = 0;  ///< Cause::zone: index of the zone closest to the reached space (zone_filter.hpp)
   std::array<Answer, kRequests> answers{};
   std::uint64_t clamped_count = 0;
   std::uint64_t rejected_count = 0;

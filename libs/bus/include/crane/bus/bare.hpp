@@ -1,6 +1,6 @@
 #pragma once
-/// One writer and one reader of a DDS implementation without the work of this project: no checksum, no check
-/// of the writer, no counts. Floor of measurements (`crane bench tick`); a crane uses bus.hpp.
+/// One writer and one reader directly on a DDS implementation: no checksum, no check of the writer, no
+/// counts. `crane bench tick` measures their latency, the lower bound for bus.hpp. A crane uses bus.hpp.
 #include <chrono>
 #include <memory>
 

@@ -15,8 +15,8 @@
 namespace crane::bus {
 
 /// Identifies the DDS writer of a sample: equal for all samples of one writer, different for any two writers.
-/// Valid within this process. Any sender can copy a Header. A sender can copy the GUID of a writer only
-/// without keys, by a choice of its own GUID prefix or by forged RTPS packets (docs/security.md).
+/// Valid within this process. Any sender can copy a Header. Without keys, a sender can also copy the GUID of
+/// a writer: it chooses the same GUID prefix, or forges RTPS packets (docs/security.md).
 using WriterId = std::array<std::uint8_t, 16>;
 
 /// Identifies the DDS participant of a writer: equal for all writers of one participant, which a Bus and its

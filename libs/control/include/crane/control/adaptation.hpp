@@ -1,5 +1,5 @@
 #pragma once
-/// Adaptation on line: estimates the friction of trolley and slew axis, the payload, the length of the
+/// Online adaptation: estimates the friction of trolley and slew axis, the payload, the length of the
 /// pendulum and the swing offset while the crane moves, and gives the friction compensation its levels. The
 /// host calls step() once per tick. No allocation, no exception, no clock. Equations and thresholds:
 /// docs/adaptation.md.
@@ -70,7 +70,7 @@ struct AdaptationInput {
   Measurement measured;
   Volts demand_v{};  ///< demand of the tick before, whose command acts from this tick on
   std::array<bool, kAxes> brake_closed{};  ///< true: the brake holds the axis
-  bool consecutive = false;  ///< true: the tick before was processed, and the command that acts is its answer
+  bool consecutive = false;                ///< true: the tick before was processed, and its command acts
 };
 
 class Adaptation {
@@ -82,8 +82,8 @@ class Adaptation {
   Adaptation& operator=(Adaptation&&) noexcept;
 
   void step(const AdaptationInput& input) noexcept;
-  /// Friction that the compensation uses from this tick on; that of the design for an axis that does not
-  /// adapt.
+  /// Friction that the compensation uses from this tick on. An axis that does not adapt has the friction of
+  /// the design.
   [[nodiscard]] const std::array<DriveFriction, kAxes>& friction() const noexcept;
   [[nodiscard]] const AdaptationReport& report() const noexcept;
 

@@ -15,8 +15,8 @@
 
 namespace crane::control {
 
-/// -3 .. 3: NB (negative big), NM (negative medium), NS (negative small), ZO (zero), PS, PM, PB (positive
-/// ...).
+/// -3 .. 3: NB, NM, NS (negative big, medium, small), ZO (zero),
+/// PS, PM, PB (positive small, medium, big).
 using FuzzyLabel = int;
 inline constexpr std::size_t kFuzzyLabels = 7;
 /// "NB" .. "PB". @pre label in -3 .. 3

@@ -43,8 +43,8 @@ struct SwingReference {
   double radial_rad = 0, radial_radps = 0, tangential_rad = 0, tangential_radps = 0;
 };
 
-/// Reference of all axes, indexed by axis. A plan adds the swing and the volts that belong to its motion, at
-/// the time when the command of the tick acts; other references leave them 0.
+/// Reference of all axes, indexed by axis. A plan also contains the swing and the volts of its motion at the
+/// time when the command of the tick acts; in other references both are 0.
 struct Reference : std::array<AxisReference, kAxes> {
   SwingReference swing;
   Volts feed_forward_v{};  ///< V, without the compensation of friction
@@ -134,7 +134,7 @@ struct Design {
 ///   none. Friction has names of the form "friction.<axis>.<name>"
 [[nodiscard]] std::vector<std::string> problems(const Design& design);
 
-/// An entry of the registry: a controller that users select by its name.
+/// An entry of the registry: the two laws that users select by one name.
 struct Controller {
   std::string_view name;
   std::string_view summary;

@@ -17,8 +17,8 @@
 ///
 /// Search: A* (P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Syst. Sci. Cybern. 4 (1968) 100) over a
 /// grid of trolley and slew. The cost is the time; a smaller clearance permits less speed
-/// (passing_speed_mps). A shortest path in the graph of all free legs between nodes of the result then
-/// removes the steps of the grid.
+/// (passing_speed_mps). The path on the grid has many short legs: the shortest path in the graph of all free
+/// legs between its nodes replaces it.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -5,8 +5,8 @@
 ///
 /// q is trolley position or slew angle, s the swing angle in its plane (phi, theta; signs of
 /// docs/equations.md). The tracking law computes the terms in r, q and q' and drives the hoist. The
-/// anti-swing law computes the terms in s and s'. The gains are constant: they suit one cable length and, for
-/// the slew axis, one trolley position.
+/// anti-swing law computes the terms in s and s'. The gains are constant: they are designed for one cable
+/// length and, on the slew axis, for one trolley position.
 #include <memory>
 
 #include "crane/control/law.hpp"

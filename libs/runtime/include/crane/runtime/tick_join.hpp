@@ -81,9 +81,9 @@ class TickInput {
       newest_ns_ = now_ns;
     }
   }
-  /// A wrong tick number far ahead would make all following samples late. The limit is twice the nominal
-  /// number of ticks since the newest sample, because the clocks of two hosts differ, plus one history,
-  /// because samples wait in the queue.
+  /// A wrong tick number far ahead would make all following samples late. The limit has two parts: twice the
+  /// nominal number of ticks since the newest sample, because the clocks of two hosts differ; and the number
+  /// of samples that the queue of the reader can hold, because they are taken at the same time.
   [[nodiscard]] bool is_ahead(std::uint64_t tick, std::int64_t now_ns) const {
     constexpr std::uint64_t kQueued_ticks = 128;
     if (policy_.period_ns <= 0 || !newest_ || tick <= *newest_) return false;

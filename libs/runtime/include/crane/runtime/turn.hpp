@@ -22,7 +22,7 @@ class Turn {
   explicit Turn(std::int64_t (*monotonic_ns)()) : monotonic_ns_{monotonic_ns} {}
 
   /// Polls `component` and lets run() poll it until end(). The main thread calls begin(), wait() and end().
-  /// @param period_ns interval of the times that the component requests; 0: it requests no regular times
+  /// @param period_ns  interval of the times that the component requests; 0: irregular times or none
   void begin(Component& component, std::int64_t period_ns);
   /// Returns when no thread runs the component any more.
   void end();
@@ -43,10 +43,10 @@ class Turn {
 
   std::int64_t (*monotonic_ns_)();
   std::atomic<Component*> component_ = nullptr;
-  std::atomic<unsigned> requests_ = 0;  ///< calls of run() that the running thread has to serve; 0: none runs
+  std::atomic<unsigned> requests_ = 0;  ///< calls of run() that the running thread serves; 0: none runs
   std::int64_t period_ns_ = 0;
 
-  std::mutex mutex_;  ///< of the members below
+  std::mutex mutex_;  ///< protects the members below
   std::condition_variable changed_;
   std::int64_t wake_at_ns_ = kNever;  ///< Component::wake_at_ns() after the last poll
   std::int64_t due_ns_ = 0;           ///< last value of wake_at_ns_ that was not kNever
