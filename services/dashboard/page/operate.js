@@ -1,9 +1,10 @@
 // The view Operate.
+import { AdaptationPanel } from "./adaptation.js";
 import { drawRequests, drawSeat } from "./desk.js";
 import { JibMap } from "./jib_map.js";
 import { Scene } from "./scene.js";
 import { SwingPlot } from "./swing_plot.js";
-import { AXES, STATES, element, meaningOf, plain } from "./words.js";
+import { AXES, STATES, element, fixed, meaningOf, plain } from "./words.js";
 
 const TRAIL_S = 10;
 const LEGEND = [["measured", "", "Load, measured"], ["target", "dashed", "Target and planned path"], ["reference", "dashed", "Aim, not sent"], ["crane", "", "Crane"]];
@@ -23,6 +24,7 @@ export class OperateView {
     this.scene = new Scene(find("scene"));
     this.map = new JibMap(find("map"), (aim) => this.#aimAt(aim));
     this.swing = new SwingPlot(find("swing"));
+    this.adaptation = new AdaptationPanel(link);
     find("scene-legend").replaceChildren(...LEGEND.map(([name, style, text]) => element("span", {}, element("i", { className: style, "--c": `var(--${name})` }), text)));
     find("view-home").onclick = () => this.scene.lookFrom("side");
     find("view-top").onclick = () => this.scene.lookFrom("top");
@@ -93,7 +95,6 @@ export class OperateView {
       if (shown.get(id) !== text) find(id).textContent = text;
       shown.set(id, text);
     };
-    const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1"); // no negative zero
     AXES.forEach((axis, i) => {
       put("hud-" + axis.key, fixed(this.state.get(axis.state) * axis.factor, axis.digits), axis.unit);
       write("volts-" + axis.key, fixed(this.state.get(`applied_v[${i}]`), 2) + " V");

@@ -31,6 +31,9 @@ export const AXES = COORDINATES.filter((coordinate) => coordinate.driven).map(({
   return { ...ON_PAGE[i], key: name, unit: shown, factor: angle ? 180 / Math.PI : 1, field: `${name}_${unit}`, state: column, speedUnit: `${shown}/s` };
 });
 
+/** As Number.toFixed(), without negative zero. */
+export const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1");
+
 export function element(name, properties = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(properties)) {

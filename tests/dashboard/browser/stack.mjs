@@ -27,7 +27,7 @@ export async function end(child, signal = "SIGTERM") {
 }
 
 const crane = "browser_test_" + process.pid;
-const bus = ["--domain", process.env.CRANE_TEST_DOMAIN ?? "54", "--crane", crane];
+export const bus = ["--domain", process.env.CRANE_TEST_DOMAIN ?? "54", "--crane", crane];
 export const startStack = async (...more) => (await start("crane", ["up", "--dds", "cyclone", ...bus, ...more], /is up with/)).child;
 /** @returns {child, address: "http://127.0.0.1:PORT/"} */
 export async function startDashboard(port = 0, ...more) {
