@@ -81,7 +81,7 @@ bool Bridge::poll(std::int64_t now_ns) {
 }
 
 /// Latches all inputs. In real time `now_ns` becomes the time of the latch. A latch that took long is
-/// repeated: the computer may have paused before it.
+/// repeated: the computer may have paused between the reading of the clock and the latch.
 Inputs Bridge::latch(std::int64_t& now_ns) {
   if (clock_ == runtime::Clock::lockstep) {
     board_->advance_to(static_cast<std::int64_t>(tick_ ? *tick_ + 1 : 0) * period_ns_);
@@ -125,7 +125,7 @@ void Bridge::take_commands(std::int64_t now_ns) {
         .brake_release = {command->brake_release[0], command->brake_release[1], command->brake_release[2]},
         .watchdog_permission = command->watchdog_permission,
         .homing = {command->homing[0], command->homing[1], command->homing[2]}};
-    command_ = probation_.believed(received, new_writer);
+    command_ = probation_.accepted(received, new_writer);
   }
 }
 
@@ -169,7 +169,7 @@ void Bridge::tick(const Inputs& inputs, std::int64_t now_ns) {
   look_for_marks(now);
 }
 
-/// Position of the sample of tick `next` relative to the nominal ticks.
+/// Time of the sample of tick `next` relative to the nominal time of the tick.
 Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
                            std::int64_t sample_time_ns) const {
   if (clock_ == runtime::Clock::lockstep) return {};

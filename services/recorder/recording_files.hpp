@@ -1,5 +1,5 @@
 #pragma once
-/// The files of one recording: one file, or parts that begin anew at a size or after a time. Each file is
+/// The files of one recording: one file, or parts that begin at a size or after a time. Each file is
 /// self-contained. A quota deletes the oldest parts of this recording, and no other file.
 #include <sys/stat.h>
 

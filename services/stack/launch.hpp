@@ -21,7 +21,7 @@ struct LaunchOptions {
   std::uint32_t epoch = 0;
   int priority = 50;
   bool verbose = false;
-  /// Of the processes of the loop, which inherit it. Lockstep needs none: it runs a simulated crane only.
+  /// The processes of the loop inherit its descriptor. Unused in lockstep, which runs a simulated crane only.
   std::shared_ptr<bus::Ledger> ledger = bus::Ledger::create();
 };
 

@@ -101,7 +101,7 @@ std::vector<PossibleCrane> possible_cranes(const configuration::Rig& careful, co
   // Lengths at a ratio of at most 1.12: the period differs by at most 6 % between neighbours.
   const int lengths =
       2 + static_cast<int>(std::log(possible.cable_high_m / possible.cable_low_m) / std::log(1.12));
-  const double believed_gain = kLoop_radps * kLoop_radps / model.stiffness_vpu;
+  const double nominal_gain = kLoop_radps * kLoop_radps / model.stiffness_vpu;
   const double ratio = load_ratio(careful, axis, model.radius_m.value_or(0));
   std::vector<PossibleCrane> cranes;
   for (const double cable_m : between(possible.cable_low_m, possible.cable_high_m, lengths, true))
@@ -112,7 +112,7 @@ std::vector<PossibleCrane> possible_cranes(const configuration::Rig& careful, co
             cranes.push_back(
                 {.cable_m = cable_m,
                  .friction_v = friction_v,
-                 .gain = share * believed_gain,
+                 .gain = share * nominal_gain,
                  .reaction = (mass - share * priors.payload_low) * ratio,
                  .delay_steps = static_cast<std::size_t>(std::llround(periods * careful.period_s / step_s))});
   return cranes;

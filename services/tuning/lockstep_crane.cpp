@@ -21,11 +21,11 @@ void preset_counters(simulator::SimulatedRig& simulated, const configuration::Ri
   const std::array start{simulated.start.trolley_m, simulated.start.slew_rad};
   for (const std::size_t i : {plant::kTrolley, plant::kSlew}) {
     auto& actual = simulated.encoders[i];
-    const auto& believed = rig.encoders[i];
+    const auto& nominal = rig.encoders[i];
     if (!rig.measures(i) ||
-        (actual.sign == believed.sign && actual.counts_per_unit == believed.counts_per_unit))
+        (actual.sign == nominal.sign && actual.counts_per_unit == nominal.counts_per_unit))
       continue;
-    const double counts = believed.sign * rig.start.position[i] * believed.counts_per_unit;
+    const double counts = nominal.sign * rig.start.position[i] * nominal.counts_per_unit;
     actual.zero = start[i] - actual.sign * counts / actual.counts_per_unit;
   }
 }

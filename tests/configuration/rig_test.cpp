@@ -58,12 +58,12 @@ TEST(RigFile, HasARestAngleForSwingEncodersOnly) {
 TEST(RigFile, CompensatesExactlyTheFrictionOfTheTower) {
   const Rig rig = load_rig(kTower);
   for (const auto& term : rig.terms) {
-    const auto& believed = rig.design.friction[term.axis == "trolley" ? plant::kTrolley : plant::kSlew];
-    EXPECT_EQ(term.parameters.at("viscous_positive_vspm"), believed.viscous_positive_vspm);
-    EXPECT_EQ(term.parameters.at("viscous_negative_vspm"), believed.viscous_negative_vspm);
-    EXPECT_EQ(term.parameters.at("coulomb_positive_v"), believed.coulomb_positive_v);
-    EXPECT_EQ(term.parameters.at("coulomb_negative_v"), believed.coulomb_negative_v);
-    EXPECT_EQ(believed.factor, 1.0);
+    const auto& nominal = rig.design.friction[term.axis == "trolley" ? plant::kTrolley : plant::kSlew];
+    EXPECT_EQ(term.parameters.at("viscous_positive_vspm"), nominal.viscous_positive_vspm);
+    EXPECT_EQ(term.parameters.at("viscous_negative_vspm"), nominal.viscous_negative_vspm);
+    EXPECT_EQ(term.parameters.at("coulomb_positive_v"), nominal.coulomb_positive_v);
+    EXPECT_EQ(term.parameters.at("coulomb_negative_v"), nominal.coulomb_negative_v);
+    EXPECT_EQ(nominal.factor, 1.0);
   }
 }
 

@@ -167,15 +167,15 @@ Tried try_stop(std::uint64_t seed, const std::string& name) {
   const auto between = [&random](double low, double high) {
     return std::uniform_real_distribution{low, high}(random);
   };
-  auto believed = rig_with(name, {wall_at(-50)});
-  believed.clearance.load_radius_m = 0;
-  auto truth = believed;
-  truth.start.cable_length_offset_m = between(-0.09, 0.09) * believed.start.position[plant::kHoist];
+  auto nominal = rig_with(name, {wall_at(-50)});
+  nominal.clearance.load_radius_m = 0;
+  auto truth = nominal;
+  truth.start.cable_length_offset_m = between(-0.09, 0.09) * nominal.start.position[plant::kHoist];
   truth.start.swing_radial_rad = between(-0.3, 0.3);
   if (name != "gantry") truth.start.swing_tangential_rad = between(-0.3, 0.3);
   truth.plant.load_mass_kg *= between(0.5, 1.5);
-  for (auto* start : {&believed.start, &truth.start}) start->position[plant::kTrolley] = 0.7;
-  GuardedCrane crane{truth, believed};
+  for (auto* start : {&nominal.start, &truth.start}) start->position[plant::kTrolley] = 0.7;
+  GuardedCrane crane{truth, nominal};
   PerAxis wanted{}, volts{};
   for (int i = 0, n = static_cast<int>(between(5, 80)); i < n && crane.armed(); ++i) {
     if (i % 20 == 0)

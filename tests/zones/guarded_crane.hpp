@@ -20,9 +20,9 @@ inline configuration::Rig deployed_rig(const std::string& name) {
 
 class GuardedCrane {
  public:
-  /// @param truth  the simulated crane; @param believed  the rig file of the supervisor
-  GuardedCrane(const configuration::Rig& truth, const configuration::Rig& believed)
-      : limits{supervisor::limits_of(believed)}, rig_{believed}, board_{fast(truth)} {
+  /// @param truth  the simulated crane; @param nominal  the rig file of the supervisor
+  GuardedCrane(const configuration::Rig& truth, const configuration::Rig& nominal)
+      : limits{supervisor::limits_of(nominal)}, rig_{nominal}, board_{fast(truth)} {
     memory.machine.state = supervisor::State::ready;
     memory.machine.self_test_passed = true;
     input.self_test = supervisor::SelfTest::passed;

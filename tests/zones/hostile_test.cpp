@@ -43,7 +43,7 @@ control::Zone random_zone(Random& random, const configuration::Rig& rig, std::si
 }
 
 /// The rig file of the supervisor: one to three zones beside the start.
-configuration::Rig believed_rig(Random& random, const std::string& name) {
+configuration::Rig nominal_rig(Random& random, const std::string& name) {
   auto rig = deployed_rig(name);
   rig.clearance = {.load_radius_m = between(random, 0.02, 0.1),
                    .suspension_height_m = 2,
@@ -64,13 +64,13 @@ configuration::Rig believed_rig(Random& random, const std::string& name) {
 }
 
 /// The crane itself: another cable, wind, another load, less friction.
-configuration::Rig true_rig(Random& random, const configuration::Rig& believed) {
-  auto rig = believed;
+configuration::Rig true_rig(Random& random, const configuration::Rig& nominal) {
+  auto rig = nominal;
   const double error = chance(random, 0.5) ? (chance(random, 0.5) ? 0.1 : -0.1) : between(random, -0.1, 0.1);
   rig.start.cable_length_offset_m = 0.9 * error * rig.start.position[plant::kHoist];
   rig.plant.load_mass_kg *= between(random, 0.5, 1.5);
   rig.start.swing_radial_rad = between(random, -0.05, 0.05);
-  const double force_n = between(random, 0, believed.clearance.wind_mps2) * rig.plant.load_mass_kg;
+  const double force_n = between(random, 0, nominal.clearance.wind_mps2) * rig.plant.load_mass_kg;
   rig.terms.push_back(
       {.name = "steady_wind",
        .axis = "",
@@ -170,8 +170,8 @@ class HostileRun {
  public:
   HostileRun(std::uint64_t seed, const std::string& name, bool guarded)
       : random_{seed},
-        believed_{believed_rig(random_, name)},
-        crane_{true_rig(random_, believed_), believed_},
+        nominal_{nominal_rig(random_, name)},
+        crane_{true_rig(random_, nominal_), nominal_},
         creep_{creep_of(random_, crane_.limits)} {
     if (!guarded) crane_.limits.zones.clear();
   }
@@ -188,7 +188,7 @@ class HostileRun {
   void tick(const PerAxis& demand_v) {
     crane_.tick(demand_v);
     result_.closest_m =
-        std::min(result_.closest_m, gap_m(believed_.zones, believed_.clearance, crane_.truth()));
+        std::min(result_.closest_m, gap_m(nominal_.zones, nominal_.clearance, crane_.truth()));
   }
   void drive() {
     Hostile hostile{random_, crane_, creep_};
@@ -200,7 +200,7 @@ class HostileRun {
       crane_.state_arrives = !(loses && chance(random_, 0.05));
       if (i == estop_tick) crane_.press_estop(true);
       tick(hostile.next());
-      result_.driven_s += believed_.period_s;
+      result_.driven_s += nominal_.period_s;
     }
     crane_.demand_arrives = crane_.state_arrives = true;
     ++result_.causes[supervisor::name_of(crane_.cause())];
@@ -221,7 +221,7 @@ class HostileRun {
     }
   }
   Random random_;
-  configuration::Rig believed_;
+  configuration::Rig nominal_;
   GuardedCrane crane_;
   std::optional<PerAxis> creep_;
   Result result_;

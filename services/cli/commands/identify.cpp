@@ -36,7 +36,7 @@ std::string with_error(const id::Estimate& estimate) {
 }
 
 void print_estimates(const identification::FrictionEstimates& estimates,
-                     const control::DriveFriction& believed, double gain) {
+                     const control::DriveFriction& nominal, double gain) {
   TextTable table{{"over K_m", "b+", "b-", "c+ [V]", "c- [V]", "K_m", "residual [V]"}};
   const auto add = [&table](const char* name, const id::FrictionEstimate& e) {
     table.add({name, with_error(e.viscous_positive), with_error(e.viscous_negative),
@@ -47,8 +47,8 @@ void print_estimates(const identification::FrictionEstimates& estimates,
   add("dissertation", estimates.dissertation);
   add("midpoint", estimates.midpoint);
   if (estimates.midpoint_joint) add("midpoint, K_m too", *estimates.midpoint_joint);
-  table.add({"rig file", fixed(believed.viscous_positive_vspm, 4), fixed(believed.viscous_negative_vspm, 4),
-             fixed(believed.coulomb_positive_v, 4), fixed(believed.coulomb_negative_v, 4), fixed(gain, 4)});
+  table.add({"rig file", fixed(nominal.viscous_positive_vspm, 4), fixed(nominal.viscous_negative_vspm, 4),
+             fixed(nominal.coulomb_positive_v, 4), fixed(nominal.coulomb_negative_v, 4), fixed(gain, 4)});
   table.print(std::cout);
   if (!estimates.gain_refusal.empty()) std::cout << estimates.gain_refusal << '\n';
 }

@@ -21,7 +21,7 @@ class Probation {
 
   /// @return `command`; during the quiet time of its writer: a command with 0 V, closed brakes, without
   ///   homing and permission. @param new_writer  true: the first command of this writer
-  [[nodiscard]] CommandView believed(const CommandView& command, bool new_writer) noexcept {
+  [[nodiscard]] CommandView accepted(const CommandView& command, bool new_writer) noexcept {
     if (new_writer) since_tick_.reset();
     const bool asks = command.watchdog_permission || command.drive_v != CommandView{}.drive_v ||
                       command.brake_release != CommandView{}.brake_release ||
