@@ -35,9 +35,9 @@ class Conversation {
     if (wait_until(bus_, timeout_s, [this] { return found(); })) return;
     if (heard_supervisor_ && heard_planner() && probe_at_ns_ > 0)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
-                     " s: check that its ticks advance (crane status)");
+                     " s: check that its ticks advance (crane status)" + without_bus());
     throw NoAnswer((heard_supervisor_ && !heard_planner() ? "no trajectory planner" : "no supervisor") +
-                   where_and_remedy(bus_));
+                   where_and_remedy(bus_) + without_bus());
   }
 
   Answer exchange(double timeout_s) {
@@ -55,11 +55,17 @@ class Conversation {
     });
     if (!answer)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
-                     " s: check that its ticks advance (crane status)");
+                     " s: check that its ticks advance (crane status)" + without_bus());
     return *answer;
   }
 
  private:
+  /// Another program on the bus can prevent every answer. Ending the stack needs no bus.
+  [[nodiscard]] std::string without_bus() const {
+    return may_be_repeated(wanted_.kind) ? "; to stop the crane without the bus, end `crane up` (Ctrl-C, or "
+                                           "`systemctl stop crane`)"
+                                         : "";
+  }
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
   /// Several processes read crane/request: the plant, the supervisor, recorders, dashboards. A request that

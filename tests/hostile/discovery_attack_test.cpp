@@ -33,6 +33,33 @@ TEST_F(DiscoveryAttack, ByParticipantsThatDoNotExistNeitherMovesNorHangsAnArmedC
   expect_growth_below(kMostPerParticipant_kb * sent, before_kb);
 }
 
+/// Forged ends of all processes, sent to all processes: each one loses its writers and readers.
+TEST_F(DiscoveryAttack, ByTheEndOfEveryProcessStopsAnArmedCrane) {
+  std::map<std::string, GuidPrefix> prefixes;
+  const auto learn = [&](const char* writer, const char* reader, const auto& topic) {
+    prefixes[writer] = prefix_of(heard(reader, topic).message);
+  };
+  learn("plant", "supervisor", topics::state);
+  learn("trajectory_planner", "supervisor", topics::reference);
+  learn("tracking", "friction_compensation", topics::tracking);
+  learn("anti_swing", "friction_compensation", topics::anti_swing);
+  learn("friction_compensation", "supervisor", topics::demand);
+  learn("supervisor", "plant", topics::command);
+  ASSERT_EQ(prefixes.size(), std::size(kLoop));
+  stack_->session().arm();
+  stack_->forget();
+  const auto end = std::chrono::steady_clock::now() + 1s;
+  while (std::chrono::steady_clock::now() < end) {
+    for (const char* process : kLoop)
+      for (const auto& [name, prefix] : prefixes)
+        if (name != process) send_to(process, end_of_participant(prefix));
+    stack_->listen(20ms);
+  }
+  stack_->listen(500ms);
+  expect_hold_or_stop();
+  EXPECT_FALSE(is(crane_STATE_HOLD)) << "the packets have no effect: this test proves nothing";
+}
+
 /// The first fragment of samples of 2 GB, under the identifier of the bridge's writer.
 TEST_F(DiscoveryAttack, ByFragmentsOfHugeSamplesFillsNoMemory) {
   auto state = heard("supervisor", topics::state);
