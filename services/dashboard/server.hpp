@@ -25,7 +25,7 @@ inline constexpr std::chrono::seconds kRequestPatience{
 inline constexpr std::chrono::milliseconds kGuessDelay{1000};
 inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then disconnected
 /// Period of the frames to the page and of the documents.
-inline constexpr std::chrono::milliseconds kFramePeriod{33};
+inline constexpr std::chrono::milliseconds kFramePeriod{16};
 
 class Server {
  public:
