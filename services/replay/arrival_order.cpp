@@ -64,14 +64,21 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   derived_.clear();
   next_jog_ = 0;
   assumed_ = 0;
+  has_earlier_ = false;
   bool begins = true;
   std::uint64_t newest = 0;  // tick with a state
   bool goes_on = true;
   const auto visit_first = [&] {
     auto first = ticks_.extract(ticks_.begin());
     auto& tick = first.mapped().tick;
+    // The processes discover the bridge one after the other; the supervisor completes the stack.
+    if (begins && tick.find(topics::state.description) != nullptr &&
+        tick.find(topics::supervisor.description) == nullptr) {
+      has_earlier_ = true;
+      return;
+    }
     complete(first.mapped());
-    goes_on = !std::exchange(begins, false) || assume_before(tick, visit);
+    goes_on = !std::exchange(begins, false) || begin(tick, visit);
     goes_on = goes_on && visit(tick) && tick.ends.empty();
   };
   reader_.for_each({}, [&](const recording::Message& message) {
@@ -89,15 +96,19 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
 }
 
 /// The recorder may discover the bridge after its first ticks. A supervisor that has not finished its
-/// self-test shows that the stack has just started, with closed brakes and 0 V.
-bool ArrivalOrder::assume_before(const RecordedTick& first,
-                                 const std::function<bool(const RecordedTick&)>& visit) {
+/// self-test shows that the stack has just started, with closed brakes and 0 V. A planner that begins with
+/// this tick publishes its reference from the state of this tick, otherwise from the state before it.
+bool ArrivalOrder::begin(RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit) {
   constexpr std::uint64_t kMost_ticks = 100;
   const auto* cdr = first.find(topics::state.description);
   auto state = cdr == nullptr ? std::nullopt : decoded(topics::state, *cdr);
   const bool starts = before_ && before_->state <= crane_STATE_SELFTEST;
   if (!state || !starts || first.number > kMost_ticks) return true;
   const auto time_ns = state->header.sample_time_ns;
+  const auto* reference = first.find(topics::reference.description);
+  const auto planned = reference == nullptr ? std::nullopt : header_of(*reference);
+  first.begins = has_earlier_ || (planned && planned->sample_time_ns == time_ns);
+  if (first.begins) return true;
   for (std::uint64_t tick = 0; tick < first.number; ++tick) {
     state->header.tick = tick;
     state->header.sample_time_ns = time_ns - static_cast<std::int64_t>(first.number - tick) * period_ns_;

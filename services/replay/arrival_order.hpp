@@ -42,8 +42,9 @@ class ArrivalOrder {
   void note(const recording::Message& message);
   void gather(const recording::Message& message, const topics::Description& topic);
   void complete(Gathered& gathered);
-  /// Visits the ticks before the first recorded one if the stack has just started.
-  bool assume_before(const RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit);
+  /// Decides how the stack began: with the first complete tick, or before the recorder did. In the second
+  /// case, visits the ticks before the first recorded one.
+  bool begin(RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit);
   void add_requests(RecordedTick& tick, const msg::SupervisorStatus& status);
   void add_jogs(Gathered& gathered, const msg::SupervisorStatus& status);
 
@@ -59,6 +60,7 @@ class ArrivalOrder {
   std::optional<msg::SupervisorStatus> before_;       ///< status of the previous tick
   std::vector<std::string> derived_;
   std::uint64_t assumed_ = 0;
+  bool has_earlier_ = false;  ///< true: there are states before the first step of the supervisor
 };
 
 }  // namespace crane::replay

@@ -20,6 +20,7 @@ struct RecordedTick {
   std::uint64_t number = 0;
   std::vector<Received> inputs{};             ///< of operators, before the state of this tick, in their order
   std::map<std::string_view, Cdr> samples{};  ///< by name of the topic; loop topics only
+  bool begins = false;   ///< the stack began with this tick; its processes were not there before
   bool assumed = false;  ///< not recorded: the crane rested as in the first recorded tick
   std::string ends{};    ///< not empty: why a replay cannot repeat this tick and those after it
   [[nodiscard]] const Cdr* find(const topics::Description& topic) const {

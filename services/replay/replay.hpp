@@ -23,12 +23,12 @@ struct Difference {
 };
 
 struct Result {
-  bool by_recorder = false;                   ///< as RecordedRun::by_recorder()
-  std::uint64_t equal_ticks = 0;              ///< ticks from 0 on in which every compared sample is equal
-  std::optional<Difference> first;            ///< first difference, in the order of the data flow
-  std::string ends;                           ///< not empty: why the replay ends after equal_ticks
-  std::uint64_t assumed_ticks = 0;            ///< as RecordedRun::assumed_ticks(); part of equal_ticks
-  std::uint64_t not_recorded = 0;             ///< compared samples that the recorder did not receive
+  bool by_recorder = false;         ///< as RecordedRun::by_recorder()
+  std::uint64_t equal_ticks = 0;    ///< ticks from the first on in which every compared sample is equal
+  std::optional<Difference> first;  ///< first difference, in the order of the data flow
+  std::string ends;                 ///< not empty: why the replay ends after equal_ticks
+  std::uint64_t assumed_ticks = 0;  ///< as RecordedRun::assumed_ticks(); part of equal_ticks
+  std::uint64_t not_recorded = 0;   ///< compared samples that the recorder did not receive
   std::vector<std::string> derived_requests;  ///< as RecordedRun::derived_requests()
   std::vector<std::string>
       problems;                /// damage of the recording; the replay ends before the first damaged tick

@@ -58,7 +58,8 @@ class Swap {
     if (tick.assumed) return true;  // without the recorded status of the supervisor
     if (!tick.ends.empty())
       result_.problems.push_back("tick " + std::to_string(tick.number) + ": " + tick.ends);
-    const bool follows = tick.number == run_.assumed_ticks() + result_.ticks;
+    if (tick.begins) begin_ = tick.number;
+    const bool follows = tick.number == begin_ + run_.assumed_ticks() + result_.ticks;
     if (!tick.ends.empty() || !follows || !stack_.receive(tick)) return false;
     const auto recorded = demand_of(tick.find(topics::demand.description));
     const auto other = demand_of(stack_.find(topics::demand.description, tick.number));
@@ -90,6 +91,7 @@ class Swap {
   RecordedRun& run_;
   InProcessReplay stack_;
   SwapResult result_;
+  std::uint64_t begin_ = 0;  ///< first tick
 };
 
 }  // namespace

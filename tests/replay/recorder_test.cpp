@@ -2,6 +2,8 @@
 // show.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "recorded_crane.hpp"
 #include "recorder/recorder.hpp"
 #include "replay/replay.hpp"
@@ -131,6 +133,44 @@ TEST_F(ByTheRecorder, TheCraneRestsBeforeTheFirstRecordedTickOfAStart) {
   EXPECT_FALSE(result.first) << replay::sentence(*result.first);
   EXPECT_EQ(result.equal_ticks, ticks_);
   EXPECT_EQ(result.assumed_ticks, 5U);
+}
+
+/// The bridge has published states before the other processes discovered it.
+TEST_F(ByTheRecorder, StatesBeforeTheFirstStepOfTheStackAreNotReplayed) {
+  const auto copy = directory_ / "early.mcap";
+  recording::McapReader reader{file_};
+  recording::McapWriter writer{copy};
+  const auto channels = recording::add_topic_channels(writer);
+  for (const auto& record : reader.metadata()) writer.metadata(record.name, record.entries);
+  for (const auto& each : reader.attachments())
+    writer.attachment(each.name, each.media_type, each.time_ns, each.data);
+  // Every tick, and every reply, gets a number that is higher by 3; three states precede them.
+  constexpr std::uint64_t kEarlier = 3;
+  reader.for_each({}, [&](const recording::Message& message) {
+    const auto* topic = replay::topic_named(message.channel->topic);
+    if (topic == nullptr) return true;
+    const auto write = [&](std::uint64_t earlier) {
+      const auto& codec = bus::CdrCodec::of(*topic->descriptor);
+      std::vector<std::uint8_t> sample(codec.sample_bytes());
+      EXPECT_TRUE(codec.decode(message.data.subspan(bus::kEncapsulation_bytes), false, sample.data()));
+      msg::Header header{};
+      std::memcpy(&header, sample.data(), sizeof header);
+      header.tick += kEarlier - earlier;
+      std::memcpy(sample.data(), &header, sizeof header);
+      bus::seal(*topic, sample.data(), header.source, header.epoch);
+      writer.message(channels[message.channel->id], static_cast<std::uint32_t>(header.tick),
+                     message.log_time_ns, message.publish_time_ns, replay::encoded(*topic, sample.data()));
+    };
+    if (topic->name == topics::state.description.name && message.sequence == 0)
+      for (auto earlier = kEarlier; earlier > 0; --earlier) write(earlier);
+    write(0);
+    return true;
+  });
+  writer.close();
+  const auto result = replayed(copy);
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.equal_ticks, ticks_);
+  EXPECT_EQ(result.assumed_ticks, 0U);
 }
 
 TEST_F(ByTheRecorder, IsRefusedWhenItBeginsLater) {

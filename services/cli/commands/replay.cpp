@@ -200,7 +200,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       "          crane replay run.mcap --processes --dds fastdds\n"
       "          crane replay out/recording.mcap --swap controller=delayed_1\n"
       "Exit code 1 when a sample differs: the output names tick, topic, field and both values.\n"
-      "The recording must begin with tick 0 (docs/data.md).");
+      "The recording must begin with the start of the stack (docs/data.md).");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
