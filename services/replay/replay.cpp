@@ -78,7 +78,7 @@ class Comparison {
   bool is_equal(const topics::Description& topic, const RecordedTick& tick) {
     const auto* recorded = tick.find(topic);
     const auto* replayed = stack_.find(topic, next_);
-    if (recorded == nullptr) return run_.by_recorder() ? is_not_recorded() : misses(topic);
+    if (recorded == nullptr) return run_.by_recorder() ? is_not_recorded(topic) : misses(topic);
     if (replayed == nullptr) return differs(topic, {"", "a sample", "no sample"});
     const auto header = run_.by_recorder() ? header_of(*recorded) : std::nullopt;
     const auto found =
@@ -86,12 +86,22 @@ class Comparison {
     return !found || differs(topic, *found);
   }
 
-  bool is_not_recorded() {
+  bool is_not_recorded(const topics::Description& topic) {
     ++result_.not_recorded;
+    missing_ = Missing{next_, std::string{topic.name}};
     return true;
   }
 
+  /// A process that was late, or has ended, has published no sample; its readers continued without it. A
+  /// difference soon after a missing sample shows this, and not another behaviour of the program.
   bool differs(const topics::Description& topic, FieldDifference what) {
+    constexpr std::uint64_t kEffect_ticks = 2;
+    if (missing_ && next_ - missing_->tick <= kEffect_ticks) {
+      result_.ends = "tick " + std::to_string(next_) + ": its " + std::string{topic.name} + " differs, and " +
+                     missing_->topic + " of tick " + std::to_string(missing_->tick) +
+                     " is not in the recording: a process was late or has ended";
+      return false;
+    }
     result_.first = Difference{next_, time_s_, std::string{topic.name}, std::move(what)};
     return false;
   }
@@ -112,8 +122,13 @@ class Comparison {
   RecordedRun& run_;
   ReplayedStack& stack_;
   Result result_;
-  std::uint64_t begin_ = 0;  ///< first tick
-  std::uint64_t next_ = 0;   ///< tick
+  struct Missing {
+    std::uint64_t tick;
+    std::string topic;
+  };
+  std::optional<Missing> missing_;  ///< last compared sample that is not in the recording
+  std::uint64_t begin_ = 0;         ///< first tick
+  std::uint64_t next_ = 0;          ///< tick
   double time_s_ = 0;
 };
 

@@ -111,6 +111,29 @@ TEST_F(ByTheRecorder, TheReplayEndsWhereAProcessIsRestarted) {
   EXPECT_EQ(result.ends, "tick 250: crane/tracking has another start-up number: its process was restarted");
 }
 
+TEST_F(ByTheRecorder, ADifferenceAfterAMissingSampleIsThatOfALateProcess) {
+  for (const std::uint32_t missing : {279U, 270U}) {
+    const auto copy = directory_ / ("late_" + std::to_string(missing) + ".mcap");
+    copy_changed(file_, copy, [missing](const recording::Message& message, std::vector<std::uint8_t>& data) {
+      const auto& topic = message.channel->topic;
+      if (topic == topics::command.description.name && message.sequence == 280)
+        data[bus::kEncapsulation_bytes + sizeof(msg::Header)] ^= 1U;  // lowest bit of drive_v[0]
+      return topic != recording::kLossTopic &&
+             (topic != topics::demand.description.name || message.sequence != missing);
+    });
+    const auto result = replayed(copy);
+    EXPECT_EQ(result.equal_ticks, 280U);
+    EXPECT_EQ(result.first.has_value(), missing == 270)
+        << "the demand of tick 270 explains no later difference";
+    if (missing == 279) {
+      EXPECT_EQ(
+          result.ends,
+          "tick 280: its crane/command differs, and crane/demand of tick 279 is not in the recording: a "
+          "process was late or has ended");
+    }
+  }
+}
+
 TEST_F(ByTheRecorder, AnotherDemandIsNamedWithTickAndField) {
   const auto copy = directory_ / "changed.mcap";
   copy_changed(file_, copy, [](const recording::Message& message, std::vector<std::uint8_t>& data) {
