@@ -14,6 +14,9 @@ inline constexpr std::size_t kMostForeignConnections = 48;
 /// Largest number of connections from one address, so that one computer cannot block the others. A browser
 /// opens seven.
 inline constexpr std::size_t kMostOfOneAddress = 16;
+/// Largest number of viewers. Other connections can be displaced (server.hpp); therefore viewers cannot
+/// occupy all connections.
+inline constexpr std::size_t kMostViewers = 48;
 /// Largest number of bytes of answers that clients have not read yet: four times the longest history of a
 /// topic.
 inline constexpr std::size_t kMostAnswers_bytes = 32U << 20U;

@@ -36,12 +36,20 @@ constexpr const char* kReportRules =
     "frame-ancestors "
     "'none'";
 
-class HttpSession : public std::enable_shared_from_this<HttpSession> {
+class HttpSession final : public Displaceable, public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission)
       : stream_{std::move(socket)}, server_{server}, admission_{std::move(admission)} {
     error_code ignored;
     loop_back_ = stream_.socket().remote_endpoint(ignored).address().is_loopback();
+  }
+
+  bool displace() override {
+    if (guesses_) return false;
+    admission_.reset();
+    error_code ignored;
+    stream_.socket().close(ignored);
+    return true;
   }
 
   void read() {
@@ -108,6 +116,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       server_.refuse();
       return refuse(403, "this dashboard answers its own pages only; --allow-origin permits others");
     }
+    if (server_.has_most_viewers()) return refuse(503, "too many viewers: close one");
+    if (!admission_) return;  // displaced
     stream_.expires_never();
     start_viewer_session(stream_.release_socket(), parser_->release(), server_, std::move(admission_));
   }
@@ -132,6 +142,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void answer_guess() {
     stream_.expires_never();
     server_.refuse();
+    guesses_ = true;
     guess_.expires_after(kGuessDelay);
     guess_.async_wait(
         [self = shared_from_this()](error_code) { self->refuse(403, "the operator token is wrong"); });
@@ -142,6 +153,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void send(ApiAnswer answer, bool keep, bool head_only) {
+    if (!admission_) return;  // displaced
     if (!admission_->reserve(answer.body.size())) {
       answer = {.status = 503,
                 .body = R"({"error":"too many answers wait for clients that do not read them"})"};
@@ -186,6 +198,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   Server& server_;
   std::unique_ptr<Admission> admission_;
   boost::asio::steady_timer guess_{stream_.get_executor()};
+  bool guesses_ = false;  ///< true: the answer to a wrong token is delayed
   bool loop_back_ = false;
   std::unique_ptr<Upload> upload_;
   beast::flat_buffer buffer_{kLongestHeader_bytes + kLongestBody_bytes};
@@ -196,9 +209,11 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
 }  // namespace
 
-void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
-                        std::unique_ptr<Admission> admission) {
-  std::make_shared<HttpSession>(std::move(socket), server, std::move(admission))->read();
+std::weak_ptr<Displaceable> start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
+                                               std::unique_ptr<Admission> admission) {
+  const auto session = std::make_shared<HttpSession>(std::move(socket), server, std::move(admission));
+  session->read();
+  return session;
 }
 
 }  // namespace crane::dashboard

@@ -7,8 +7,8 @@
 
 namespace crane::dashboard {
 
-/// The session keeps itself alive until the connection ends.
-void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
-                        std::unique_ptr<Admission> admission);
+/// The session keeps itself alive until the connection ends, or until it becomes a WebSocket.
+std::weak_ptr<Displaceable> start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
+                                               std::unique_ptr<Admission> admission);
 
 }  // namespace crane::dashboard

@@ -1,5 +1,6 @@
 #include "dashboard/server.hpp"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <iostream>
 
@@ -82,10 +83,26 @@ void Server::accept() {
 
 void Server::welcome(tcp::socket socket) {
   error_code error;
-  const auto address = socket.remote_endpoint(error).address();
+  const auto peer = socket.remote_endpoint(error).address();
   if (error) return;
-  if (auto admission = Admission::ask(limits_, address.to_string(), !address.is_loopback()))
-    start_http_session(std::move(socket), *this, std::move(admission));
+  const auto address = peer.to_string();
+  const bool foreign = !peer.is_loopback();
+  auto admission = Admission::ask(limits_, address, foreign);
+  while (!admission && displace_oldest(address, foreign))
+    admission = Admission::ask(limits_, address, foreign);
+  if (!admission) return;
+  std::erase_if(displaceable_, [](const Displaced& entry) { return entry.session.expired(); });
+  displaceable_.push_back({start_http_session(std::move(socket), *this, std::move(admission)), address});
+}
+
+bool Server::displace_oldest(const std::string& address, bool foreign) {
+  const auto oldest = std::ranges::find_if(displaceable_, [&](const Displaced& entry) {
+    const auto session = entry.session.lock();
+    return session && (!foreign || entry.address == address) && session->displace();
+  });
+  if (oldest == displaceable_.end()) return false;
+  displaceable_.erase(oldest);
+  return true;
 }
 
 void Server::beat() {

@@ -4,6 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <deque>
 #include <memory>
 #include <set>
 
@@ -26,6 +27,15 @@ inline constexpr std::chrono::milliseconds kGuessDelay{1000};
 inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then disconnected
 /// Period of the frames to the page and of the documents.
 inline constexpr std::chrono::milliseconds kFramePeriod{16};
+
+/// A connection that the server may end to admit a newer one.
+class Displaceable {
+ public:
+  virtual ~Displaceable() = default;
+  /// Ends the connection and releases its admission at once. @return false when the connection must not be
+  /// displaced, because its answer to a wrong token is delayed
+  [[nodiscard]] virtual bool displace() = 0;
+};
 
 class Server {
  public:
@@ -52,6 +62,7 @@ class Server {
   [[nodiscard]] const AccessRules& rules() const { return rules_; }
   void join(const std::shared_ptr<ViewerSession>& viewer) { viewers_.insert(viewer); }
   void leave(const std::shared_ptr<ViewerSession>& viewer);
+  [[nodiscard]] bool has_most_viewers() const { return viewers_.size() >= kMostViewers; }
   /// Permits one upload at a time. @return false while another upload is in progress
   [[nodiscard]] bool begin_upload() { return !std::exchange(uploads_, true); }
   void end_upload() { uploads_ = false; }
@@ -62,6 +73,10 @@ class Server {
  private:
   void accept();
   void welcome(boost::asio::ip::tcp::socket socket);
+  /// Ends the oldest connection that is no viewer: for a newcomer from this computer any, for another one a
+  /// connection of its own address. A program that occupies all connections therefore cannot keep out an
+  /// operator. @return false when there is none
+  bool displace_oldest(const std::string& address, bool foreign);
   void take_samples();
   void beat();
   [[nodiscard]] ServerCounts counts() const;
@@ -75,6 +90,11 @@ class Server {
   Inbox<std::vector<observation::SamplePtr>> inbox_{kMostBatches};
   static constexpr std::size_t kMostBatches = 1000;  ///< several seconds of bus traffic
   std::set<std::shared_ptr<ViewerSession>> viewers_;
+  struct Displaced {
+    std::weak_ptr<Displaceable> session;
+    std::string address;
+  };
+  std::deque<Displaced> displaceable_;  ///< in the order of their begin
   std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;
   bool uploads_ = false;

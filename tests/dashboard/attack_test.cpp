@@ -84,6 +84,12 @@ TEST_F(WithToken, AWrongTokenOccupiesItsConnectionAfterADisconnect) {
                 asio::buffer(std::string{"GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: "
                                          "Bearer guess\r\n\r\n"}));
   }
+  // A connection whose request has not been read yet may be displaced. Each round lets the server read once.
+  for (int round = 0; round < 1000; ++round) {
+    std::promise<void> done;
+    server_.post([&done] { done.set_value(); });
+    done.get_future().wait();
+  }
   const std::string answer = raw("GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");
   EXPECT_TRUE(answer.empty() || Clock::now() - begin >= kGuessDelay) << answer.substr(0, 80);
 }
@@ -208,6 +214,25 @@ TEST_F(ServerTest, AViewerThatFloodsPingsIsDisconnected) {
   for (int i = 0; i < 100'000 && !error; ++i) viewer.ping({}, error);
   EXPECT_TRUE(error);
   EXPECT_EQ(get("/api/about").result_int(), 200U);
+}
+
+TEST_F(ServerTest, ConnectionsThatRequestNothingDoNotKeepAnOperatorOut) {
+  std::vector<tcp::socket> idle;
+  for (std::size_t i = 0; i < 2 * kMostConnections; ++i) idle.push_back(connect());
+  EXPECT_EQ(post("/api/request", {{"kind", "estop"}}).result_int(), 200U);
+  EXPECT_EQ(requests_, 1);
+}
+
+TEST_F(ServerTest, ViewersDoNotKeepAnOperatorOut) {
+  std::vector<Viewer> viewers;
+  for (std::size_t i = 0; i < kMostViewers; ++i) viewers.push_back(view(kViewerProtocol));
+  EXPECT_THROW((void)view(kViewerProtocol), boost::system::system_error);
+  std::vector<tcp::socket> idle;
+  for (std::size_t i = 0; i < kMostConnections; ++i) idle.push_back(connect());
+  EXPECT_EQ(post("/api/request", {{"kind", "estop"}}).result_int(), 200U);
+  boost::system::error_code error;
+  viewers.front().ping({}, error);
+  EXPECT_FALSE(error) << "no viewer is displaced";
 }
 
 TEST(ConnectionLimits, OneAddressCannotOccupyAllConnections) {
