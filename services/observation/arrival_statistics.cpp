@@ -20,6 +20,16 @@ std::optional<Spread> spread(const std::vector<double>& values) {
                 *std::max_element(values.begin(), values.end())};
 }
 
+bool Joining::over(std::int64_t source_time_ns, std::int64_t arrival_time_ns) {
+  if (over_) return true;
+  if (!first_) first_ = {source_time_ns, arrival_time_ns};
+  if (last_)
+    over_ = arrival_time_ns - last_->arrival_ns >= (source_time_ns - last_->source_ns) / 2 ||
+            source_time_ns - first_->source_ns > kLongest_ns;
+  last_ = {source_time_ns, arrival_time_ns};
+  return over_;
+}
+
 void ArrivalStatistics::add(const Arrival& arrival) {
   ++counts_.samples;
   ++window_samples_;
@@ -28,7 +38,7 @@ void ArrivalStatistics::add(const Arrival& arrival) {
     counts_.lost += missing_.size();
     missing_.clear();
     newest_.reset();
-    joined_ = false;
+    joining_ = {};
     window_first_.reset();
     window_intervals_ = 0;
   }
@@ -36,15 +46,13 @@ void ArrivalStatistics::add(const Arrival& arrival) {
                                                    : arrival.source_time_ns >= newest_->source_time_ns);
   if (counts_ticks_) count(arrival);
   if (!in_order) return;
+  const bool joined = joining_.over(arrival.source_time_ns, arrival.arrival_time_ns);
   if (newest_) {
     const auto stretched_ns = (arrival.arrival_time_ns - newest_->arrival_time_ns) -
                               (arrival.source_time_ns - newest_->source_time_ns);
-    joined_ = joined_ || -stretched_ns <= (arrival.source_time_ns - newest_->source_time_ns) / 2 ||
-              arrival.source_time_ns - first_source_time_ns_ > kLongestJoin_ns;
-    if (joined_) jitter_us_.push_back(std::abs(static_cast<double>(stretched_ns)) * 1e-3);
+    if (joined) jitter_us_.push_back(std::abs(static_cast<double>(stretched_ns)) * 1e-3);
     window_intervals_ += window_first_ ? 1 : 0;
   }
-  if (!newest_) first_source_time_ns_ = arrival.source_time_ns;
   newest_ = arrival;
   if (!window_first_) window_first_ = arrival;
   window_last_ = arrival;

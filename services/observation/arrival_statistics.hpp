@@ -24,6 +24,24 @@ struct Spread {
 };
 [[nodiscard]] std::optional<Spread> spread(const std::vector<double>& values);
 
+/// A reader that joins receives samples from before its time together: a reliable writer keeps the samples
+/// whose receipt has not been confirmed, at most its history of 128 samples, and sends them with its next
+/// heartbeat. Their arrival says nothing about the writer.
+class Joining {
+ public:
+  /// Call for each sample in the order of the source. @return true from the first interval on that is at
+  /// least half as long as at the source, at the latest after kLongest_ns
+  bool over(std::int64_t source_time_ns, std::int64_t arrival_time_ns);
+
+ private:
+  static constexpr std::int64_t kLongest_ns = 2'000'000'000;  ///< more than the history of a loop at 100 Hz
+  struct Times {
+    std::int64_t source_ns, arrival_ns;
+  };
+  std::optional<Times> first_, last_;
+  bool over_ = false;
+};
+
 class ArrivalStatistics {
  public:
   /// @param counts_ticks  true: every tick has one sample, so that lost, duplicate and late samples can be
@@ -59,12 +77,7 @@ class ArrivalStatistics {
   std::optional<Arrival> newest_;
   std::set<std::uint64_t> missing_;
   std::optional<Arrival> window_first_, window_last_;
-  /// A reliable reader delays the first samples until a heartbeat of the writer confirms that no earlier
-  /// sample is missing, and then delivers them together. Therefore jitter is computed from the first interval
-  /// on that is at least half as long as at the source, at the latest from kLongestJoin_ns on.
-  bool joined_ = false;
-  std::int64_t first_source_time_ns_ = 0;
-  static constexpr std::int64_t kLongestJoin_ns = 200'000'000;  ///< ten heartbeats (libs/bus, 20 ms)
+  Joining joining_;
   std::size_t window_samples_ = 0, window_intervals_ = 0;
   std::vector<double> jitter_us_;
 };

@@ -18,15 +18,31 @@ Arrival on_time(std::uint64_t tick, std::int64_t delay_ns = 0) {
 
 TEST(ArrivalStatistics, GiveTheRateOfTheSourceAlsoInABurst) {
   ArrivalStatistics statistics{true};
+  for (const std::uint64_t tick : {3U, 4U}) statistics.add(on_time(tick));
   for (std::uint64_t tick = 5; tick <= 105; ++tick) {
     auto arrival = on_time(tick);
-    arrival.arrival_time_ns = 7'000'000'000;
+    arrival.arrival_time_ns = 50'000'000;
     statistics.add(arrival);
   }
   const auto window = statistics.take_window();
   EXPECT_DOUBLE_EQ(window.rate_hz.value(), 100.0);
   EXPECT_DOUBLE_EQ(window.jitter_us->max, 10'000.0);
   EXPECT_EQ(statistics.counts().lost, 0U);
+}
+
+/// A writer sends its whole history of 128 samples to a reader that joins.
+TEST(ArrivalStatistics, DoNotCountTheHistoryOfTheWriterAsJitter) {
+  constexpr std::int64_t kBurst_ns = 20'000;
+  ArrivalStatistics statistics{true};
+  std::int64_t arrival_ns = 0;
+  for (std::uint64_t tick = 0; tick < 228; ++tick) {
+    arrival_ns += tick < 128 ? kBurst_ns : kPeriod_ns + (tick % 2 == 0 ? 50'000 : -50'000);
+    statistics.add({tick, 1, static_cast<std::int64_t>(tick) * kPeriod_ns, arrival_ns});
+  }
+  const auto window = statistics.take_window();
+  ASSERT_TRUE(window.jitter_us);
+  EXPECT_NEAR(window.jitter_us->max, 50, 1e-6);
+  EXPECT_NEAR(window.rate_hz.value_or(0), 100, 1e-6);
 }
 
 TEST(ArrivalStatistics, DoNotCountTheJoiningOfTheReaderAsJitter) {

@@ -50,6 +50,7 @@ int measure(const TopicDelayOptions& options) {
   const auto window_ns = static_cast<std::int64_t>(options.window_s * 1e9);
   auto due_ns = runtime::monotonic_ns() + window_ns;
   bool checked = false;
+  observation::Joining joining;
   std::vector<double> delays_us;
   const auto end_window = [&] {
     if (!checked) warn_of_other_clock(delays_us);
@@ -60,6 +61,7 @@ int measure(const TopicDelayOptions& options) {
   read_topic(
       bus, options.topic,
       [&](const TopicSample& sample) {
+        if (!joining.over(sample.header.sample_time_ns, sample.arrival_time_ns)) return;
         delays_us.push_back(static_cast<double>(sample.arrival_time_ns - sample.header.sample_time_ns) *
                             1e-3);
       },
