@@ -22,7 +22,7 @@ class ArmedCrane : public testing::Test {
   static constexpr double kStill_m = 0.01;  ///< motion of an axis in HOLD by swing and control
   static constexpr long kGrowth_kb = 8 * 1024;
 
-  ArmedCrane() {
+  explicit ArmedCrane(std::uint32_t domain = kDomain) : stack_{domain, "virginia_tech_tower"} {
     stack_.session().arm();
     stack_.forget();
     for (const char* process : kLoop) before_kb_[process] = resident_kb(pid_of(process).value());
@@ -61,7 +61,7 @@ class ArmedCrane : public testing::Test {
       EXPECT_LE(resident_kb(pid_of(process).value()) - kb, kGrowth_kb) << process;
   }
 
-  mutable RunningStack stack_{kDomain, "virginia_tech_tower"};
+  mutable RunningStack stack_;
   std::map<std::string, long> before_kb_;
 };
 

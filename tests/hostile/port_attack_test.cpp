@@ -40,8 +40,11 @@ class BoundPorts {
   std::vector<int> sockets_;
 };
 
+/// In a domain of its own: the attack prevents the start of every other crane in the domain.
 class PortAttack : public ArmedCrane, public testing::WithParamInterface<const char*> {
  protected:
+  static constexpr std::uint32_t kDomain = 96;
+  PortAttack() : ArmedCrane{kDomain} {}
   [[nodiscard]] std::vector<std::string> arguments() const {
     return {"--domain", std::to_string(kDomain), "--crane", stack_.bus_options().crane, "--dds", GetParam()};
   }
