@@ -1,7 +1,9 @@
 #pragma once
 /// A laboratory with unusual recordings. The gantry of deploy/rigs/gantry.toml, computed from Lagrange's
 /// equations with a Runge-Kutta method, without code of the diagnosis:
-///   x'' (M + m sin^2 r) = F - m sin r (g cos r + l r'^2),   l r'' = x'' cos r - g sin r,   F = M k u - c x'
+///   x'' (M + m sin^2 r) = F + P sin^2 r - m sin r (g cos r + l r'^2)
+///   l r'' = x'' cos r - g sin r - P / m cos r,   F = M k u - c x'
+/// P is a horizontal force on the load, which hangs at x - l sin r.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -12,10 +14,15 @@
 
 namespace crane::strange {
 
+struct Load {
+  double time_s = 0, position_m = 0, swing_rad = 0;
+};
+
 struct Gantry {
   double inertia_kg = 12, load_kg = 3, gain_mps2pv = 1.2, gravity_mps2 = 9.81, cable_m = 1.5;
   double drag_nspm = 0;  ///< viscous, of the trolley; not in the rig file
   double rub_n = 0;  ///< dry friction of the trolley in the first third of every kRub_s; not in the rig file
+  std::function<double(const Load&)> push_n{};  ///< horizontal, on the load; empty: none
 };
 
 struct Instant {
@@ -33,10 +40,12 @@ inline std::vector<Instant> moved(const Gantry& crane, double duration_s,
     const double sine = std::sin(s[2]), cosine = std::cos(s[2]);
     const double rub_n = std::fmod(time_s, kRub_s) < kRub_s / 3 ? crane.rub_n * std::tanh(s[1] / 0.002) : 0;
     const double force = crane.inertia_kg * crane.gain_mps2pv * volts - crane.drag_nspm * s[1] - rub_n;
-    const double a =
-        (force - crane.load_kg * sine * (crane.gravity_mps2 * cosine + crane.cable_m * s[3] * s[3])) /
-        (crane.inertia_kg + crane.load_kg * sine * sine);
-    return State{s[1], a, s[3], (a * cosine - crane.gravity_mps2 * sine) / crane.cable_m};
+    const double push = crane.push_n ? crane.push_n({time_s, s[0] - crane.cable_m * sine, s[2]}) : 0;
+    const double a = (force + push * sine * sine -
+                      crane.load_kg * sine * (crane.gravity_mps2 * cosine + crane.cable_m * s[3] * s[3])) /
+                     (crane.inertia_kg + crane.load_kg * sine * sine);
+    return State{s[1], a, s[3],
+                 (a * cosine - crane.gravity_mps2 * sine - push / crane.load_kg * cosine) / crane.cable_m};
   };
   const auto along = [](const State& s, const State& d, double h) {
     State moved_state = s;

@@ -54,6 +54,9 @@ class Problem {
   [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
     return whiteners_[output][window];
   }
+  [[nodiscard]] const WindowMotion& motion(std::size_t output, std::size_t window) const {
+    return motions_[output][window];
+  }
   /// ln f of a row of a window; rows are counted output by output.
   [[nodiscard]] double log_variance(std::size_t window, std::size_t row) const {
     const std::size_t rows = windows_[window].rows;

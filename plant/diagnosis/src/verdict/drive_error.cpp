@@ -67,8 +67,6 @@ std::vector<DriveError> drive_errors(const Study& study, const Crane& crane, con
                                      const Accuracy& accuracy) {
   std::vector<DriveError> errors;
   if (study.drive().empty()) return errors;
-  // Without a stated accuracy, the usual one bounds a disturbance.
-  const double least_accuracy = accuracy.values > 0 ? accuracy.values : kUsualAccuracy.values;
   const Problem plain = study.drive().plain();
   const Fits base = plain.fit(replays_of(plain.runs(), crane));
   const std::vector<Inaccurate> inaccurate = inaccurate_cranes(study, crane, rig, accuracy);
@@ -96,8 +94,9 @@ std::vector<DriveError> drive_errors(const Study& study, const Crane& crane, con
                  usual = std::accumulate(by_accuracy.begin(), by_accuracy.end(), 0.0) / windows,
                  noise = study.drive().disturbances()[output].noise;
     for (const double variance : by_accuracy)
-      error.expected.push_back(
-          std::sqrt(squared(noise) + squared(least_accuracy) * motion / windows + std::max(variance, usual)));
+      error.expected.push_back(std::sqrt(squared(noise) +
+                                         squared(permitted_share(accuracy)) * motion / windows +
+                                         std::max(variance, usual)));
   }
   return errors;
 }

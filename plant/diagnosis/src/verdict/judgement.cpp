@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
-#include <numbers>
 #include <sstream>
 
 #include "replay/standstill.hpp"
@@ -12,6 +11,7 @@
 #include "rules.hpp"
 #include "search/compare.hpp"
 #include "verdict/leftovers.hpp"
+#include "verdict/missing_force.hpp"
 #include "verdict/sentence.hpp"
 
 namespace crane::diagnosis {
@@ -27,46 +27,10 @@ double mean_loss(const Problem& problem, const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
-/// Rms residual of an output in windows over the rms motion in the windows; 0 if the output hardly moves.
-double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
-  double moved = 0, count = 0;
-  for (const Window& window : problem.windows()) {
-    const Eigen::VectorXd measured = problem.measured_values(window, output);
-    moved += (measured.array() - measured.mean()).matrix().squaredNorm();
-    count += static_cast<double>(measured.size());
-  }
-  return moved > rules::kSwings * rules::kSwings * count
-             ? std::sqrt(sum(problem.squares_left(fits, output)) / moved)
-             : 0;
-}
-
-/// Rms of the missing force on the load, as a share of the weight: F / m g = r'' / w^2 + r with the residual
-/// r and the natural frequency w. The second difference spans an eighth of a period, so that counts and noise
-/// of the sensor have little effect.
-double lacking_force(const Problem& problem, const Fits& fits, std::size_t output, double natural_radps) {
-  constexpr double kSpan_periods = 1.0 / 8;
-  double squares = 0, count = 0;
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const Window& window = problem.windows()[w];
-    const double period_s = problem.runs()[window.run].run.period_s;
-    const auto rows = static_cast<Eigen::Index>(window.rows);
-    const auto span = static_cast<Eigen::Index>(
-        std::lround(kSpan_periods * 2 * std::numbers::pi / natural_radps / period_s));
-    if (span < 1 || rows <= 2 * span) continue;
-    const Eigen::VectorXd left = (problem.measured(window) - fits[w].simulated)
-                                     .segment(static_cast<Eigen::Index>(output) * rows, rows);
-    const double scale = 1 / std::pow(static_cast<double>(span) * period_s * natural_radps, 2);
-    const Run& run = problem.runs()[window.run].run;
-    const auto is_measured = [&](Eigen::Index k) {
-      return run.is_measured(problem.outputs()[output], window.first + static_cast<std::size_t>(k));
-    };
-    for (Eigen::Index k = span; k + span < rows; ++k) {
-      if (!is_measured(k - span) || !is_measured(k) || !is_measured(k + span)) continue;
-      const double force = scale * (left[k + span] - 2 * left[k] + left[k - span]) + left[k];
-      squares += force * force;
-    }
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
+std::string described(const SwingPattern& pattern) {
+  return (std::ostringstream{} << std::setprecision(2) << pattern.name << " (" << pattern.rms_rad
+                               << " rad rms in windows)")
+      .str();
 }
 
 class Judgement {
@@ -132,6 +96,14 @@ class Judgement {
       remainder.from.push_back(lacking);
       return true;
     }
+    const std::vector<SwingPattern> of_swing =
+        swing_patterns_left(study_, best_, accuracy_.permitted_share_of_swing(), seed_);
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, of_swing.size()); ++i)
+      remainder.from.push_back(described(of_swing[i]));
+    if (!of_swing.empty()) {
+      remainder.predictable_fraction = of_swing[0].fraction;
+      return true;
+    }
     std::vector<Pattern> left = patterns_left(study_, all_, losing_, seed_);
     std::erase_if(left, [&](const Pattern& pattern) { return accuracy_.contains(pattern.what); });
     if (left.empty()) return false;
@@ -157,7 +129,7 @@ class Judgement {
     const std::vector<Output>& outputs = plain.outputs();
     for (std::size_t output = 0; output < outputs.size(); ++output) {
       if (share_not_followed(plain, fits, output) <= rules::kNotFollowed) continue;
-      const double force = lacking_force(plain, fits, output, study_.natural_radps());
+      const double force = missing_force(plain, fits, output, study_.natural_radps());
       if (force > rules::kCredibleForce)
         return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
                                      << kOutputNames[outputs[output]] << " lacks a force on the load of "

@@ -1,6 +1,8 @@
 #include "verdict/leftovers.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "force/force_lines.hpp"
 #include "force/jumps.hpp"
@@ -8,6 +10,10 @@
 
 namespace crane::diagnosis {
 namespace {
+
+/// Length of the windows in which patterns of the swing are sought. In a window of one period, the start
+/// explains a constant force.
+constexpr double kPatternWindow_periods = 5;
 
 double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
   double sum = 0;
@@ -18,6 +24,17 @@ double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
 /// Whether the pattern depends on the variable of the law of the candidate.
 bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   return candidate.law == left.with && candidate.axis == axis_of(left.output);
+}
+
+/// Rms over the measured rows of an output about the mean of their window.
+double rms_motion(const Problem& problem, std::size_t output) {
+  double squares = 0, count = 0;
+  for (const Window& window : problem.windows()) {
+    const Eigen::VectorXd measured = problem.measured_values(window, output);
+    squares += (measured.array() - measured.mean()).matrix().squaredNorm();
+    count += static_cast<double>(measured.size());
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
 /// Largest permitted pattern, as a share of the loss of the base model. A term does not match the effect
@@ -55,6 +72,11 @@ double weakest(const Effects& effects, const std::vector<double>& explained, con
 
 }  // namespace
 
+bool oscillates(const Study& study, const Effects& effects) {
+  const Crane crane = study.with(effects);
+  return !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
+}
+
 bool pattern_share(const Pattern& pattern, const Effects& effects) {
   const Unexplained& u = pattern.what;
   const bool counts =
@@ -68,10 +90,8 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
   std::vector<Pattern> left;
   const Runs& runs = study.drive().runs();
   const Effects& effects = hypotheses.best.effects;
-  // A cause with a free oscillation itself produces a line of the spectrum.
-  const Crane crane = study.with(effects);
-  const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
-  const Replays best = replays_of(runs, crane), base = replays_of(runs, study.with({}));
+  const bool oscillating = oscillates(study, effects);
+  const Replays best = replays_of(runs, study.with(effects)), base = replays_of(runs, study.with({}));
   for (const Output axis : study.drive().outputs()) {
     const Pieces pieces = pieces_of(runs, best, axis);
     const double of_base = squares_of(residuals_of(pieces, base));
@@ -80,7 +100,7 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
       left.push_back({what, of_base, weakest(effects, by_each, what)});
     };
     for (const Unexplained& pattern : find_unexplained(pieces)) add(pattern);
-    if (!rings)
+    if (!oscillating)
       if (const auto line = find_force_line(pieces, seed)) add(*line);
     const bool loses = std::any_of(losing.begin(), losing.end(),
                                    [&](const LosingEncoder& encoder) { return encoder.axis == axis; });
@@ -93,6 +113,31 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
       left.push_back({*line, hypotheses.base.train.load_loss});
   std::sort(left.begin(), left.end(),
             [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
+  return left;
+}
+
+std::vector<SwingPattern> swing_patterns_left(const Study& study, const Fitted& best, double permitted,
+                                              std::uint64_t seed) {
+  std::vector<SwingPattern> left;
+  const Problem& load = study.load();
+  if (load.empty()) return left;
+  const double window_s =
+      std::max(kBlock_s, kPatternWindow_periods * 2 * std::numbers::pi / study.natural_radps());
+  Problem long_windows(load.runs(), Part::load, window_s, study.natural_radps());
+  const Replays crane = replays_of(load.runs(), study.with(best.effects));
+  long_windows.learn_disturbance(crane);
+  const Fits fits = long_windows.fit(crane);
+  for (std::size_t output = 0; output < load.outputs().size(); ++output) {
+    double largest_rad = permitted * rms_motion(load, output);
+    for (const auto& change : best.change)
+      largest_rad = std::max(largest_rad, rules::kLeastBeside * change[load.outputs()[output]]);
+    std::vector<SwingPattern> found = find_swing_patterns(long_windows, fits, output, seed);
+    if (!oscillates(study, best.effects))
+      if (auto band = find_narrow_band(load, best.train.load, output)) found.push_back(std::move(*band));
+    for (SwingPattern& pattern : found)
+      if (pattern.rms_rad > largest_rad) left.push_back(std::move(pattern));
+  }
+  std::ranges::sort(left, [](const auto& a, const auto& b) { return a.rms_rad > b.rms_rad; });
   return left;
 }
 

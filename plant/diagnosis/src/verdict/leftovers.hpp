@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "data/lost_counts.hpp"
+#include "force/swing_patterns.hpp"
 #include "force/unexplained.hpp"
 #include "search/search.hpp"
 
@@ -22,7 +23,18 @@ struct Pattern {
                                                  const std::vector<LosingEncoder>& losing,
                                                  std::uint64_t seed);
 
+/// True if the crane with these effects has an inner coordinate that oscillates freely. The effects then
+/// produce a line of the spectrum themselves, and the start of the oscillation is free in each window.
+[[nodiscard]] bool oscillates(const Study& study, const Effects& effects);
+
 /// Whether the pattern is larger than the thresholds permit beside these effects.
 [[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);
+
+/// Patterns of the swing beside the best hypothesis that are errors of the model, the largest first. Their
+/// rms is larger than both permitted changes of the swing: the given share of its rms motion in the windows,
+/// and kLeastBeside of the largest change by an effect of the hypothesis.
+/// @param permitted share of the motion, > 0: accuracy of the rig file
+[[nodiscard]] std::vector<SwingPattern> swing_patterns_left(const Study& study, const Fitted& best,
+                                                            double permitted, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

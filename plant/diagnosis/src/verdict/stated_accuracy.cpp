@@ -20,6 +20,14 @@ bool is_limit(const Candidate& candidate) {
          candidate.cause != "swing_delay";
 }
 
+/// Another quantity with the same accuracy has the same effect: of the scale of the swing that of the
+/// measured support, of the scale of a position the gain of its drive, and of the gain the scale. Both errors
+/// add.
+bool is_confounded_with_a_scale(const Candidate& candidate) {
+  return candidate.cause == "swing_scale" || candidate.cause == "position_scale" ||
+         candidate.cause == "motor_gain";
+}
+
 /// The load hangs anywhere within one resolution of the sensor when the sensor is zeroed.
 bool is_error_of_zero(const Study& study, const Effect& effect) {
   if (effect.candidate->cause != "swing_offset") return false;
@@ -40,13 +48,14 @@ std::vector<double> StatedAccuracy::limits_of(const Candidate& candidate) const 
 }
 
 bool StatedAccuracy::contains_values(const Effect& effect) const {
-  const std::vector<double> limits = limits_of(*effect.candidate);
+  std::vector<double> limits = limits_of(*effect.candidate);
+  if (is_confounded_with_a_scale(*effect.candidate)) limits[0] += accuracy_.values;
   for (std::size_t i = 0; i < limits.size(); ++i)
     if (std::abs(effect.values[i] - effect.candidate->parameters[i].null) > limits[i]) return false;
   return true;
 }
 
-std::vector<Crane> StatedAccuracy::inaccurate(const Study& study, const Crane& crane) const {
+std::vector<Crane> StatedAccuracy::inaccurate_cranes(const Study& study, const Crane& crane) const {
   std::vector<Crane> cranes;
   std::map<std::string, std::size_t> of_friction;  // by axis: one crane
   for (const Candidate& candidate : study.candidates()) {
@@ -62,28 +71,38 @@ std::vector<Crane> StatedAccuracy::inaccurate(const Study& study, const Crane& c
 
 std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Effects& effects) const {
   if (effects.empty()) return {};
-  std::vector<Crane> cranes = inaccurate(study, study.with(effects));
-  const std::size_t inaccuracies = cranes.size();
-  for (std::size_t i = 0; i < effects.size(); ++i) cranes.push_back(study.with(without(effects, i)));
-  std::vector<Changes> changes(cranes.size(), Changes{});
+  const Crane rig_file = study.with({}), extended = study.with(effects);
+  const std::vector<Crane> inaccurate = inaccurate_cranes(study, rig_file);
+  std::vector<Crane> without_each;
+  for (std::size_t i = 0; i < effects.size(); ++i) without_each.push_back(study.with(without(effects, i)));
+  Changes largest{};
+  std::vector<Changes> by_effect(effects.size(), Changes{});
   for (const Problem* part : {&study.drive(), &study.load(), &study.whole_runs()}) {
     if (part->empty()) continue;
     const std::size_t first = part == &study.whole_runs() ? kOutputs : 0;
     const Problem plain = part->plain();
-    const Fits fits = plain.fit(replays_of(plain.runs(), study.with(effects)));
-    for (std::size_t c = 0; c < cranes.size(); ++c) {
-      const std::vector<double> squares = plain.squares_changed(replays_of(plain.runs(), cranes[c]), fits);
-      for (std::size_t i = 0; i < squares.size(); ++i) changes[c][first + plain.outputs()[i]] = squares[i];
+    const auto changes = [&](const Crane& crane, const Fits& at) {
+      Changes squares{};
+      const std::vector<double> of_outputs = plain.squares_changed(replays_of(plain.runs(), crane), at);
+      for (std::size_t i = 0; i < of_outputs.size(); ++i) squares[first + plain.outputs()[i]] = of_outputs[i];
+      return squares;
+    };
+    const Fits of_rig_file = plain.fit(replays_of(plain.runs(), rig_file));
+    for (const Crane& crane : inaccurate) {
+      const Changes by_inaccuracy = changes(crane, of_rig_file);
+      for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], by_inaccuracy[i]);
+    }
+    const Fits of_extended = plain.fit(replays_of(plain.runs(), extended));
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      const Changes of_part = changes(without_each[i], of_extended);
+      for (std::size_t k = 0; k < of_part.size(); ++k) by_effect[i][k] += of_part[k];
     }
   }
-  Changes largest{};
-  for (std::size_t c = 0; c < inaccuracies; ++c)
-    for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], changes[c][i]);
   std::vector<bool> contained;
   for (std::size_t i = 0; i < effects.size(); ++i)
     contained.push_back(limits_of(*effects[i].candidate).empty()
                             ? is_error_of_zero(study, effects[i]) ||
-                                  std::ranges::equal(changes[inaccuracies + i], largest, std::less_equal{})
+                                  std::ranges::equal(by_effect[i], largest, std::less_equal{})
                             : contains_values(effects[i]));
   return contained;
 }

@@ -17,13 +17,17 @@ class StatedAccuracy {
   StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy);
 
   /// True for each effect within the accuracy of the rig file. If the accuracy of its quantity is stated, the
-  /// effect is within the accuracy when its values are. Any other effect is within the accuracy when it
-  /// changes the simulation of no output more than the largest stated inaccuracy of a drive, a position or
-  /// the swing scale does, or when it is a swing offset of at most half a resolution of the sensor. A change
-  /// is an rms in the windows of the training data and, for a swing, over whole runs, from the same starts.
+  /// effect is within the accuracy when its values are; the error of a scale and that of a confounded
+  /// quantity add. Any other effect is within the accuracy when it changes the simulation of no output more
+  /// than the largest stated inaccuracy of a drive, a position or the swing scale changes the simulation of
+  /// the rig file, or when it is a swing offset of at most half a resolution of the sensor. A change is an
+  /// rms in the windows of the training data and, for a swing, over whole runs, from the same starts.
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Effects& effects) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
+  /// Share of a swing that is within the accuracy: the errors of two scales, of the swing and of the position
+  /// of the support, add.
+  [[nodiscard]] double permitted_share_of_swing() const { return 2 * permitted_share(accuracy_); }
   /// significant_drive_error() with this accuracy.
   [[nodiscard]] std::optional<SignificantDriveError> drive_error_beyond(const Study& study,
                                                                         const Crane& crane) const;
@@ -40,7 +44,7 @@ class StatedAccuracy {
   /// @pre the quantity of the effect has a stated accuracy
   [[nodiscard]] bool contains_values(const Effect& effect) const;
   /// Cranes whose rig file is wrong by one stated inaccuracy each.
-  [[nodiscard]] std::vector<Crane> inaccurate(const Study& study, const Crane& crane) const;
+  [[nodiscard]] std::vector<Crane> inaccurate_cranes(const Study& study, const Crane& crane) const;
 
   const configuration::Rig& rig_;
   Accuracy accuracy_;

@@ -1,0 +1,223 @@
+#include "force/swing_patterns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "force/normal_equations.hpp"
+#include "force/swing_variables.hpp"
+#include "parallel.hpp"
+#include "replay/travel.hpp"
+#include "robust.hpp"
+#include "rules.hpp"
+#include "shooting/pieces.hpp"
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kSwingFolds = 4;
+constexpr std::size_t kSwingFlips = 99;
+/// Values of the bins, row x bin.
+MatrixXd shapes_in(std::size_t window, std::size_t rows, const SwingVariable& variable, const Extent& range) {
+  const auto last = static_cast<double>(variable.bins - 1);
+  MatrixXd shapes = MatrixXd::Zero(static_cast<Index>(rows), static_cast<Index>(variable.bins));
+  for (Index k = 0; k < shapes.rows(); ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    const double share = (variable.value[window][row] - range.low) / range.width();
+    const double at = last * std::clamp(share, 0.0, 1.0);
+    for (Index bin = 0; bin < shapes.cols(); ++bin)
+      shapes(k, bin) =
+          variable.factor[window][row] * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
+  }
+  return shapes;
+}
+
+/// Swing of a pendulum from rest, by column, under accelerations that last one row each. In place.
+void swing_under(MatrixXd& x, double radps, double period_s) {
+  const double c = std::cos(radps * period_s), s = std::sin(radps * period_s);
+  Eigen::RowVectorXd angle = Eigen::RowVectorXd::Zero(x.cols()), rate = angle;
+  for (Index k = 0; k < x.rows(); ++k) {
+    const Eigen::RowVectorXd push = x.row(k) / (radps * radps);
+    x.row(k) = angle;
+    const Eigen::RowVectorXd from_equilibrium = angle - push;
+    angle = push + c * from_equilibrium + s / radps * rate;
+    rate = c * rate - radps * s * from_equilibrium;
+  }
+}
+
+/// Without the free motion of the load, which the start of a window explains.
+MatrixXd beside_free_motion(const MatrixXd& x, double radps, double period_s) {
+  MatrixXd free(x.rows(), 2);
+  for (Index k = 0; k < x.rows(); ++k) {
+    const double phase = radps * period_s * static_cast<double>(k);
+    free(k, 0) = std::cos(phase), free(k, 1) = std::sin(phase);
+  }
+  return x - free * free.householderQr().solve(x);
+}
+
+class PatternTests {
+ public:
+  PatternTests(const Problem& problem, const Fits& fits, std::size_t output)
+      : problem_(problem), output_(output), pieces_(pieces_of(problem, fits, output)) {}
+
+  [[nodiscard]] const Pieces& pieces() const { return pieces_; }
+  [[nodiscard]] Index block_count() const {
+    Index count = 0;
+    for (std::size_t w = 0; w < pieces_.all.size(); ++w) count += blocks_in(w);
+    return count;
+  }
+
+  struct Tested {
+    SwingVariable variable;
+    Extent range;
+    std::vector<NormalEquations> blocks;
+    Eigen::LDLT<MatrixXd> curvature;            ///< of all blocks
+    std::vector<Eigen::LDLT<MatrixXd>> others;  ///< by fold: curvature of all other folds
+  };
+
+  [[nodiscard]] Tested tested(SwingVariable variable) const {
+    Tested test{std::move(variable), {}, {}, {}, {}};
+    for (const std::vector<double>& run : test.variable.value)
+      for (const double value : run) test.range.take(value);
+    NormalEquations all{static_cast<Index>(test.variable.bins)};
+    for (std::size_t w = 0; w < pieces_.all.size(); ++w) add_blocks(test, w, all);
+    const double ridge = 1e-3 * all.hessian.trace() / static_cast<double>(test.variable.bins) + 1e-12;
+    for (std::size_t fold = 0; fold < kSwingFolds; ++fold) {
+      NormalEquations others = all;
+      for (std::size_t b = 0; b < test.blocks.size(); ++b)
+        if (fold_of(b, test) == fold) others -= test.blocks[b];
+      others.hessian.diagonal().array() += ridge;
+      test.others.emplace_back(others.hessian);
+    }
+    all.hessian.diagonal().array() += ridge;
+    test.curvature.compute(all.hessian);
+    return test;
+  }
+
+  /// Cross-validated decrease of the loss with signs of the blocks; 0 unless all folds but one have a gain.
+  [[nodiscard]] double gain(const Tested& test, const VectorXd& signs) const {
+    const auto bins = static_cast<Index>(test.variable.bins);
+    double gain = 0;
+    std::size_t agreeing = 0;
+    for (std::size_t fold = 0; fold < kSwingFolds; ++fold) {
+      NormalEquations own{bins};
+      VectorXd score = VectorXd::Zero(bins);
+      for (std::size_t b = 0; b < test.blocks.size(); ++b) {
+        const double sign = signs[static_cast<Index>(b)];
+        if (fold_of(b, test) != fold) {
+          score += sign * test.blocks[b].score;
+          continue;
+        }
+        own.score += sign * test.blocks[b].score;
+        own.hessian += test.blocks[b].hessian;
+      }
+      const double gained = own.gain(test.others[fold].solve(score));
+      gain += gained;
+      agreeing += gained > 0 ? 1 : 0;
+    }
+    return agreeing + 1 >= kSwingFolds ? gain : 0;
+  }
+
+  [[nodiscard]] double rms(const Tested& test) const {
+    const VectorXd amplitudes = test.curvature.solve(score_of(test, VectorXd::Ones(block_count())));
+    double squares = 0, count = 0;
+    for (std::size_t w = 0; w < pieces_.all.size(); ++w) {
+      const WindowMotion& motion = problem_.motion(output_, w);
+      squares += beside_free_motion(response(test, w) * amplitudes, motion.natural_radps, motion.period_s)
+                     .squaredNorm();
+      count += static_cast<double>(pieces_.all[w].rows);
+    }
+    return std::sqrt(squares / count);
+  }
+
+ private:
+  /// Folds are consecutive blocks: a pattern must hold in parts of the data that are apart in time.
+  [[nodiscard]] static std::size_t fold_of(std::size_t block, const Tested& test) {
+    return block * kSwingFolds / test.blocks.size();
+  }
+
+  [[nodiscard]] static VectorXd score_of(const Tested& test, const VectorXd& signs) {
+    VectorXd score = VectorXd::Zero(static_cast<Index>(test.variable.bins));
+    for (std::size_t b = 0; b < test.blocks.size(); ++b)
+      score += signs[static_cast<Index>(b)] * test.blocks[b].score;
+    return score;
+  }
+
+  /// Appends the normal equations of the blocks of a window and adds them to `all`. The whitened residuals of
+  /// different rows are independent.
+  void add_blocks(Tested& test, std::size_t window, NormalEquations& all) const {
+    const Piece& piece = pieces_.all[window];
+    const MatrixXd whitened = response_to(pieces_, piece, response(test, window));
+    const VectorXd weights = weights_of(piece.residual);
+    const auto rows = static_cast<Index>(piece.rows);
+    const Index blocks = blocks_in(window);
+    for (Index block = 0; block < blocks; ++block) {
+      const Index first = block * rows / blocks, count = (block + 1) * rows / blocks - first;
+      const auto part = whitened.middleRows(first, count);
+      NormalEquations equations;
+      equations.score =
+          part.transpose() * weights.segment(first, count).cwiseProduct(piece.residual.segment(first, count));
+      equations.hessian = part.transpose() * weights.segment(first, count).asDiagonal() * part;
+      all += equations;
+      test.blocks.push_back(std::move(equations));
+    }
+  }
+
+  [[nodiscard]] Index blocks_in(std::size_t window) const {
+    const double duration_s =
+        static_cast<double>(pieces_.all[window].rows) * problem_.motion(output_, window).period_s;
+    return std::max<Index>(1, std::lround(duration_s / kBlock_s));
+  }
+
+  /// Change of the swing, row x bin, rad.
+  [[nodiscard]] MatrixXd response(const Tested& test, std::size_t window) const {
+    MatrixXd shapes = shapes_in(window, problem_.windows()[window].rows, test.variable, test.range);
+    const WindowMotion& motion = problem_.motion(output_, window);
+    if (!test.variable.of_sensor) swing_under(shapes, motion.natural_radps, motion.period_s);
+    return shapes;
+  }
+
+  const Problem& problem_;
+  std::size_t output_;
+  Pieces pieces_;
+};
+
+}  // namespace
+
+std::vector<SwingPattern> find_swing_patterns(const Problem& problem, const Fits& fits, std::size_t output,
+                                              std::uint64_t seed) {
+  std::vector<SwingPattern> found;
+  const PatternTests patterns(problem, fits, output);
+  const Index blocks = patterns.block_count();
+  const double loss = patterns.pieces().loss();
+  std::vector<SwingVariable> variables = swing_variables_of(problem, fits, output);
+  std::vector<std::optional<PatternTests::Tested>> tests(variables.size());
+  parallel_for(tests.size(), [&](std::size_t i) { tests[i] = patterns.tested(std::move(variables[i])); });
+
+  std::mt19937_64 random(seed);
+  std::vector<VectorXd> flips(kSwingFlips, VectorXd::Ones(blocks));
+  for (VectorXd& flip : flips)
+    for (double& sign : flip) sign = (random() & 1U) != 0U ? 1.0 : -1.0;
+  std::vector<double> largest(kSwingFlips, 0.0);
+  parallel_for(kSwingFlips, [&](std::size_t i) {
+    for (const auto& test : tests) largest[i] = std::max(largest[i], patterns.gain(*test, flips[i]));
+  });
+  const double by_luck = *std::ranges::max_element(largest);
+
+  for (const auto& test : tests) {
+    const double gain = patterns.gain(*test, VectorXd::Ones(blocks));
+    if (gain <= std::max(by_luck, double{rules::kPatternLuck})) continue;
+    found.push_back({test->variable.name, problem.outputs()[output], gain / loss, patterns.rms(*test)});
+  }
+  std::ranges::sort(found,
+                    [](const SwingPattern& a, const SwingPattern& b) { return a.fraction > b.fraction; });
+  return found;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,38 @@
+#pragma once
+/// Errors of a swing that are not random: they depend on a measured variable, or they have one frequency. The
+/// learnt disturbance (docs/diagnosis.md, 4) is a random force on the load. It makes a missing force likely,
+/// although the force follows from the motion.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shooting/problem.hpp"
+
+namespace crane::diagnosis {
+
+/// Part of the residual of a swing.
+struct SwingPattern {
+  std::string name;  ///< "swing_radial_rad: force, position of the trolley"
+  Output output = kRadialSwing;
+  double fraction = 0;  ///< of the loss of the output
+  double rms_rad = 0;   ///< in windows, beside the free motion of the load
+};
+
+/// Patterns of one output, the largest gain first: a force on the load, or an error of the swing sensor, that
+/// is a function of position, speed, swing, rate of the swing, or time. The function has one amplitude for
+/// each triangular bin of its variable. The cross-validated decrease of the loss exceeds kPatternLuck, and
+/// the decreases by all patterns with each of 99 random signs of the blocks of kBlock_s.
+/// @param problem of the load, whitened, with windows of several periods
+/// @param output index into its outputs @param seed of the signs
+[[nodiscard]] std::vector<SwingPattern> find_swing_patterns(const Problem& problem, const Fits& fits,
+                                                            std::size_t output, std::uint64_t seed);
+
+/// Force in a narrow band of frequencies, with another phase in each window: the spectrum of the whitened
+/// residual has a maximum that exceeds the spectrum at half and at twice the frequency. The whitened residual
+/// of a random force has a flat spectrum; with an imprecise noise model, a monotonic one. Level kSignificant
+/// (F test, Bonferroni over the frequencies that a window resolves).
+[[nodiscard]] std::optional<SwingPattern> find_narrow_band(const Problem& problem, const Fits& fits,
+                                                           std::size_t output);
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,18 @@
+#pragma once
+/// Test of "a disturbance explains the residual of a swing" by the size of the force.
+#include "shooting/problem.hpp"
+
+namespace crane::diagnosis {
+
+/// Rms residual of an output in windows over the rms motion in the windows; 0 if the output hardly moves.
+/// @param output index into the outputs of the problem, which is not whitened
+[[nodiscard]] double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output);
+
+/// Rms of the missing force on the load, as a share of the weight: F / m g = r'' / w^2 + r with the residual
+/// r and the natural frequency w. The second difference spans an eighth of a period, so that counts and noise
+/// of the sensor have little effect.
+/// @param output index into the outputs of the problem, which is not whitened
+[[nodiscard]] double missing_force(const Problem& problem, const Fits& fits, std::size_t output,
+                                   double natural_radps);
+
+}  // namespace crane::diagnosis
