@@ -33,6 +33,7 @@ struct SipState {
 /// Little endian; fewer than eight bytes are padded with zeros.
 std::uint64_t word_of(std::span<const std::uint8_t> bytes) noexcept {
   std::uint64_t word = 0;
+  if (bytes.empty()) return word;  // an empty span may have no address, which memcpy must not get
   if constexpr (std::endian::native == std::endian::little) {
     std::memcpy(&word, bytes.data(), bytes.size());
   } else {
