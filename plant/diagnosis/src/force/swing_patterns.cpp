@@ -22,7 +22,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kSwingFolds = 4;
-constexpr std::size_t kSwingFlips = 99;
+constexpr std::size_t kSwingFlips = 99;  ///< the largest of 99 is exceeded with a probability of 1 %
+
 /// Values of the bins, row x bin.
 MatrixXd shapes_in(std::size_t window, std::size_t rows, const SwingVariable& variable, const Extent& range) {
   const auto last = static_cast<double>(variable.bins - 1);

@@ -7,6 +7,7 @@
 #include "force/force_lines.hpp"
 #include "force/jumps.hpp"
 #include "rules.hpp"
+#include "verdict/missing_force.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -24,17 +25,6 @@ double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
 /// Whether the pattern depends on the variable of the law of the candidate.
 bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   return candidate.law == left.with && candidate.axis == axis_of(left.output);
-}
-
-/// Rms over the measured rows of an output about the mean of their window.
-double rms_motion(const Problem& problem, std::size_t output) {
-  double squares = 0, count = 0;
-  for (const Window& window : problem.windows()) {
-    const Eigen::VectorXd measured = problem.measured_values(window, output);
-    squares += (measured.array() - measured.mean()).matrix().squaredNorm();
-    count += static_cast<double>(measured.size());
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
 /// Largest permitted pattern, as a share of the loss of the base model. A term does not match the effect

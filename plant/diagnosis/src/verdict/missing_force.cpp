@@ -8,16 +8,23 @@
 
 namespace crane::diagnosis {
 
-double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
-  double moved = 0, count = 0;
+double rms_motion(const Problem& problem, std::size_t output) {
+  double squares = 0, count = 0;
   for (const Window& window : problem.windows()) {
     const Eigen::VectorXd measured = problem.measured_values(window, output);
-    moved += (measured.array() - measured.mean()).matrix().squaredNorm();
+    squares += (measured.array() - measured.mean()).matrix().squaredNorm();
     count += static_cast<double>(measured.size());
   }
-  return moved > rules::kSwings * rules::kSwings * count
-             ? std::sqrt(sum(problem.squares_left(fits, output)) / moved)
-             : 0;
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
+  const double motion = rms_motion(problem, output);
+  if (motion <= rules::kSwings) return 0;
+  double count = 0;
+  for (const Window& window : problem.windows())
+    count += static_cast<double>(problem.measured_rows(window, output));
+  return std::sqrt(sum(problem.squares_left(fits, output)) / count) / motion;
 }
 
 double missing_force(const Problem& problem, const Fits& fits, std::size_t output, double natural_radps) {

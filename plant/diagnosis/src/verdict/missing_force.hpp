@@ -4,6 +4,9 @@
 
 namespace crane::diagnosis {
 
+/// Rms of the measured values of an output about the mean of their window, m or rad; 0 without windows.
+[[nodiscard]] double rms_motion(const Problem& problem, std::size_t output);
+
 /// Rms residual of an output in windows over the rms motion in the windows; 0 if the output hardly moves.
 /// @param output index into the outputs of the problem, which is not whitened
 [[nodiscard]] double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output);
