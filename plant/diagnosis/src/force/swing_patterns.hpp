@@ -1,7 +1,7 @@
 #pragma once
 /// Errors of a swing that are not random: they depend on a measured variable, or they have one frequency. The
-/// learnt disturbance (docs/diagnosis.md, 4) is a random force on the load. It makes a missing force likely,
-/// although the force follows from the motion.
+/// learnt disturbance (docs/diagnosis.md, 4) is a random force on the load. Its
+/// model also absorbs a force that follows from the motion.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ struct SwingPattern {
 /// Patterns of one output, the largest gain first: a force on the load, or an error of the swing sensor, that
 /// is a function of position, speed, swing, rate of the swing, or time. The function has one amplitude for
 /// each triangular bin of its variable. The cross-validated decrease of the loss exceeds kPatternLuck, and
-/// the decreases by all patterns with each of 99 random signs of the blocks of kBlock_s.
+/// the decreases by all patterns in 99 copies of the residual whose blocks of kBlock_s have random signs.
 /// @param problem of the load, whitened, with windows of several periods
 /// @param output index into its outputs @param seed of the signs
 [[nodiscard]] std::vector<SwingPattern> find_swing_patterns(const Problem& problem, const Fits& fits,

@@ -1,5 +1,6 @@
 #pragma once
-/// Ledger of a stack: memory that the processes of the control loop share and no other program can open.
+/// Ledger of a stack: memory that the processes of the control loop share and that programs of other
+/// users cannot open.
 ///
 /// Without keys, every program on the bus can send packets in the name of any DDS writer. Therefore each
 /// process of the loop enters the digest of each sample of a loop topic in the ledger before it sends the
@@ -9,7 +10,7 @@
 ///
 /// The ledger is an anonymous file (memfd_create) with mode 0600. `crane up` passes its descriptor to the
 /// processes of the loop only. Programs of the same user can still open it, because they can also trace and
-/// end these processes. It connects processes of one host.
+/// end these processes. The ledger connects processes of one host.
 #include <cstdint>
 #include <filesystem>
 #include <memory>
