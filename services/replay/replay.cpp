@@ -27,7 +27,8 @@ class Comparison {
   Result make() {
     run_.for_each([this](const RecordedTick& tick) { return add(tick); });
     if (next_ == begin_ && !result_.first)
-      throw Refusal("no tick of the recording can be replayed" + damage());
+      throw Refusal("no tick of the recording can be replayed" +
+                    (result_.ends.empty() ? "" : "; " + result_.ends) + damage());
     result_.by_recorder = run_.by_recorder();
     result_.equal_ticks = next_ - begin_;
     result_.assumed_ticks = run_.assumed_ticks();

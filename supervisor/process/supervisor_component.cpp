@@ -31,7 +31,9 @@ constexpr double kWaitShare = 0.6;  // share of a period: longest wait for the d
 constexpr double kSilentPeriods = 1.5;   // without a state: the step is executed after this time
 constexpr double kOpenPeriods = 2;       // additional time when a state has arrived without its demand
 constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
-constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until the planner must execute it
+constexpr std::int64_t kStart_ns =
+    2'000'000'000;                  // longest wait for the first demand and reference after the first state
+constexpr int kTicksToTakeUp = 20;  // from the acceptance of a move until the planner must execute it
 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
  public:
@@ -64,6 +66,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::Demand* demand,
                const msg::Reference* reference) override {
     last_header_ = runtime::answer_to(state->header);
+    if (!begins(demand != nullptr && reference != nullptr)) return;
     TickInput input;
     input.bridge_restarted = has_restarted();
     const auto verdict = bridge_clock_.take(state->header);
@@ -107,6 +110,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
     expect_state_by(now_ns + periods_ns(kSilentPeriods));
+    begun_ = true;
     TickInput input;
     input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
@@ -135,6 +139,15 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     }
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
+  }
+  /// The processes discover each other one after the other. The supervisor begins with the first tick that
+  /// has all inputs, or kStart_ns after its first state. Without its command, the bridge keeps 0 V and closed
+  /// brakes.
+  bool begins(bool complete) {
+    if (begun_ || !realtime_) return true;
+    if (state_due_ns_ == runtime::kNever) state_due_ns_ = now_ns_ + kStart_ns;
+    begun_ = complete || now_ns_ >= state_due_ns_;
+    return begun_;
   }
   /// True in the first tick of another bridge.
   bool has_restarted() {
@@ -282,6 +295,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::int64_t now_ns_ = 0;
   std::int64_t state_due_ns_ = runtime::kNever;  ///< time by which a state is expected; kNever: no state yet
   bool has_respite_ = false;
+  bool begun_ = false;  ///< true: this process has taken its first step
   std::uint64_t bridge_restarts_ = 0;
   bool wrong_time_announced_ = false;
   msg::AcceptedMove move_{};  ///< last accepted move; number 0: none

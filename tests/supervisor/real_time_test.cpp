@@ -16,6 +16,49 @@ class RealTimeOnTwoHosts : public SupervisorInRealTime, public testing::WithPara
   RealTimeOnTwoHosts() : SupervisorInRealTime{GetParam()} {}
 };
 
+class BeforeItsFirstStep : public SupervisorInRealTime {
+ protected:
+  BeforeItsFirstStep() : SupervisorInRealTime{0, true, 0} {}
+  void states_come(std::uint64_t first, std::uint64_t last) {
+    for (auto tick = first; tick <= last; ++tick) {
+      state_comes(tick);
+      wake_at(10.0 * static_cast<double>(tick));
+      sleep_until(10.0 * static_cast<double>(tick) + 9);
+    }
+  }
+};
+
+TEST_F(BeforeItsFirstStep, WaitsForTheFirstTickWithAllInputs) {
+  states_come(1, 20);
+  EXPECT_EQ(steps(), 0);
+  state_comes(21);
+  wake_at(210);
+  demand_comes(21);
+  wake_at(210.5);
+  EXPECT_EQ(steps(), 1);
+  EXPECT_EQ(missing(), 0U);
+  states_come(22, 22);
+  EXPECT_EQ(steps(), 2);
+  EXPECT_EQ(missing(), 1U);
+}
+
+TEST_F(BeforeItsFirstStep, ReportsAMissingDemandTwoSecondsAfterTheFirstState) {
+  states_come(1, 200);
+  EXPECT_EQ(steps(), 0);
+  states_come(201, 205);
+  EXPECT_GE(steps(), 4);
+  EXPECT_TRUE(demand_is_stale());
+}
+
+TEST_F(BeforeItsFirstStep, ReportsAMissingStateTwoSecondsAfterTheOnlyState) {
+  states_come(1, 1);
+  sleep_until(2009);
+  EXPECT_EQ(steps(), 0);
+  sleep_until(2050);
+  EXPECT_GE(steps(), 2);
+  EXPECT_TRUE(state_is_stale());
+}
+
 TEST_P(RealTimeOnTwoHosts, SilenceIsMeasuredWithTheClockOfTheSupervisor) {
   state_comes(11);
   wake_at(110);

@@ -17,11 +17,13 @@ class SupervisorInRealTime : public testing::Test {
   /// Ten complete ticks in time; the step of tick 10 is at 100.5 ms.
   /// @param bridge_ahead_ns  offset of the clock of the bridge's host relative to that of the supervisor
   /// @param model_checks     of the rig file
-  explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0, bool model_checks = true)
+  /// @param ticks            complete ticks
+  explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0, bool model_checks = true,
+                                std::uint64_t ticks = 10)
       : bridge_ahead_ns_{bridge_ahead_ns}, rig_{tower(model_checks)} {
     state_.configuration = demand_.configuration = reference_.configuration =
         configuration::digest(rig_, rig_.controller);
-    for (std::uint64_t tick = 1; tick <= 10; ++tick) {
+    for (std::uint64_t tick = 1; tick <= ticks; ++tick) {
       const double at_ms = 10.0 * static_cast<double>(tick);
       state_comes(tick);
       wake_at(at_ms);
