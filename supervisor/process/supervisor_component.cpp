@@ -20,6 +20,7 @@
 #include "process/samples.hpp"
 #include "process/sole_reader.hpp"
 #include "process/start_up_test.hpp"
+#include "process/step_timing.hpp"
 
 namespace crane::supervisor {
 namespace {
@@ -28,11 +29,6 @@ using runtime::Context;
 
 constexpr double kWaitShare = 0.6;  // share of a period: longest wait for the demand; the command must reach
                                     // the bridge in the same period
-constexpr double kSilentPeriods = 1.5;   // without a state: the step is executed after this time
-constexpr double kOpenPeriods = 2;       // additional time when a state has arrived without its demand
-constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
-constexpr std::int64_t kStart_ns =
-    2'000'000'000;                  // longest wait for the first demand and reference after the first state
 constexpr int kTicksToTakeUp = 20;  // from the acceptance of a move until the planner must execute it
 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
@@ -66,7 +62,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::Demand* demand,
                const msg::Reference* reference) override {
     last_header_ = runtime::answer_to(state->header);
-    if (!begins(demand != nullptr && reference != nullptr)) return;
+    if (!timing_.begins(demand != nullptr && reference != nullptr, now_ns_)) return;
     TickInput input;
     input.bridge_restarted = has_restarted();
     const auto verdict = bridge_clock_.take(state->header);
@@ -76,7 +72,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       state = nullptr;
     }
     const auto sampled_ns = sample_time_ns(tick, state);
-    expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns_ + periods_ns(kRespitePeriods)));
+    timing_.stepped(sampled_ns, now_ns_);
     input.now_s = seconds(sampled_ns);
     input.tick = tick;
     input.state_arrived = state != nullptr;
@@ -108,9 +104,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   bool on_idle(std::int64_t now_ns) override {
     if (const auto* state = open_leader(); state != nullptr && bridge_clock_.fits(state->header))
       (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
-    if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
-    expect_state_by(now_ns + periods_ns(kSilentPeriods));
-    begun_ = true;
+    if (!timing_.is_silent(open_leader() != nullptr, now_ns)) return false;
     TickInput input;
     input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
@@ -120,7 +114,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     return true;
   }
   [[nodiscard]] std::int64_t wake_at_ns() const override {
-    return std::min(JoinedComponent::wake_at_ns(), silence_ends_ns());
+    return std::min(JoinedComponent::wake_at_ns(), timing_.due_ns(open_leader() != nullptr));
   }
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
@@ -140,15 +134,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
   }
-  /// The processes discover each other one after the other. The supervisor begins with the first tick that
-  /// has all inputs, or kStart_ns after its first state. Without its command, the bridge keeps 0 V and closed
-  /// brakes.
-  bool begins(bool complete) {
-    if (begun_ || !realtime_) return true;
-    if (state_due_ns_ == runtime::kNever) state_due_ns_ = now_ns_ + kStart_ns;
-    begun_ = complete || now_ns_ >= state_due_ns_;
-    return begun_;
-  }
   /// True in the first tick of another bridge.
   bool has_restarted() {
     if (restarts() == bridge_restarts_) return false;
@@ -165,30 +150,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
   [[nodiscard]] static double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
   [[nodiscard]] std::int64_t period_ns() const { return std::llround(limits_.period_s * 1e9); }
-  [[nodiscard]] std::int64_t periods_ns(double periods) const {
-    return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
-  }
-  /// While a state waits for its demand, the tick join determines the time of the step. With the additional
-  /// periods a step is executed even if states continue to arrive without demands.
-  [[nodiscard]] std::int64_t silence_ends_ns() const {
-    if (!realtime_ || state_due_ns_ == runtime::kNever) return runtime::kNever;
-    return state_due_ns_ + (open_leader() == nullptr ? 0 : periods_ns(kOpenPeriods));
-  }
-  void expect_state_by(std::int64_t time_ns) {
-    state_due_ns_ = time_ns;
-    has_respite_ = false;
-  }
-  /// When this process was scheduled late, samples may have arrived at the host without being delivered yet.
-  /// One pause of the computer must not count as several missing ticks. Therefore the function extends the
-  /// wait, once per step.
-  bool woke_late(std::int64_t now_ns) {
-    if (has_respite_ || open_leader() != nullptr ||
-        now_ns < silence_ends_ns() + periods_ns(kRespitePeriods) / 2)
-      return false;
-    state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
-    has_respite_ = true;
-    return true;
-  }
 
   /// Reports the contradiction in the last status of this process.
   void note_foreign(TickInput& input) const {
@@ -282,6 +243,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   Limits limits_;
   bool realtime_;
+  StepTiming timing_{limits_.period_s, realtime_};
   CommandEcho echo_;
   BridgeClock bridge_clock_{period_ns()};
   runtime::RequestInbox requests_;
@@ -293,9 +255,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   TickMemory memory_;
   msg::Header last_header_{};
   std::int64_t now_ns_ = 0;
-  std::int64_t state_due_ns_ = runtime::kNever;  ///< time by which a state is expected; kNever: no state yet
-  bool has_respite_ = false;
-  bool begun_ = false;  ///< true: this process has taken its first step
   std::uint64_t bridge_restarts_ = 0;
   bool wrong_time_announced_ = false;
   msg::AcceptedMove move_{};  ///< last accepted move; number 0: none

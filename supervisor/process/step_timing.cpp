@@ -1,0 +1,43 @@
+#include "process/step_timing.hpp"
+
+#include <algorithm>
+
+namespace crane::supervisor {
+namespace {
+
+constexpr double kSilentPeriods = 1.5;   // without a state: the step is executed after this time
+constexpr double kOpenPeriods = 2;       // additional time when a state has arrived without its demand
+constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
+constexpr std::int64_t kStart_ns = 2'000'000'000;  // longest wait for the first tick with all inputs
+
+}  // namespace
+
+bool StepTiming::begins(bool complete, std::int64_t now_ns) {
+  if (begun_ || !realtime_) return true;
+  if (state_due_ns_ == runtime::kNever) state_due_ns_ = now_ns + kStart_ns;
+  begun_ = complete || now_ns >= state_due_ns_;
+  return begun_;
+}
+
+void StepTiming::stepped(std::int64_t sampled_ns, std::int64_t now_ns) {
+  expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns + periods_ns(kRespitePeriods)));
+}
+
+bool StepTiming::is_silent(bool open, std::int64_t now_ns) {
+  const auto due = due_ns(open);
+  if (now_ns < due) return false;
+  if (!has_respite_ && !open && now_ns >= due + periods_ns(kRespitePeriods) / 2) {
+    state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
+    has_respite_ = true;
+    return false;
+  }
+  expect_state_by(now_ns + periods_ns(kSilentPeriods));
+  return begun_ = true;
+}
+
+std::int64_t StepTiming::due_ns(bool open) const {
+  if (!realtime_ || state_due_ns_ == runtime::kNever) return runtime::kNever;
+  return state_due_ns_ + (open ? periods_ns(kOpenPeriods) : 0);
+}
+
+}  // namespace crane::supervisor

@@ -1,0 +1,53 @@
+#pragma once
+/// When the supervisor steps in real time although inputs are missing. In lockstep, every step has all
+/// inputs.
+#include <cstdint>
+
+#include "crane/runtime/component.hpp"
+
+namespace crane::supervisor {
+
+class StepTiming {
+ public:
+  StepTiming(double period_s, bool realtime) : period_s_{period_s}, realtime_{realtime} {}
+
+  /// The processes discover each other one after the other. The supervisor begins with the first tick that
+  /// has all inputs, or 2 s after its first state. Without its command, the bridge keeps 0 V and closed
+  /// brakes.
+  /// @param complete  the tick has all inputs
+  /// @return true when the supervisor begins with this tick, or has begun
+  bool begins(bool complete, std::int64_t now_ns);
+
+  /// Call at a step with a state. Sets the time of the next step, should no further state arrive.
+  /// @param sampled_ns  local time of the sample
+  void stepped(std::int64_t sampled_ns, std::int64_t now_ns);
+
+  /// Call when no tick is complete. When this process was scheduled late, samples may have arrived at the
+  /// host without being delivered yet. One pause of the computer must not count as several missing ticks.
+  /// Therefore the function extends the wait, once per step.
+  /// @param open  a state has arrived and waits for its demand: the tick join determines the time of the
+  /// step,
+  ///   but a step is executed even if states continue to arrive without demands
+  /// @return true when the supervisor steps now without a state
+  bool is_silent(bool open, std::int64_t now_ns);
+
+  /// Time of the step without a state; runtime::kNever: before the first state, or in lockstep.
+  [[nodiscard]] std::int64_t due_ns(bool open) const;
+
+ private:
+  [[nodiscard]] std::int64_t periods_ns(double periods) const {
+    return static_cast<std::int64_t>(periods * period_s_ * 1e9);
+  }
+  void expect_state_by(std::int64_t time_ns) {
+    state_due_ns_ = time_ns;
+    has_respite_ = false;
+  }
+
+  double period_s_;
+  bool realtime_;
+  std::int64_t state_due_ns_ = runtime::kNever;
+  bool begun_ = false;
+  bool has_respite_ = false;  ///< true: the wait of this step has been extended
+};
+
+}  // namespace crane::supervisor
