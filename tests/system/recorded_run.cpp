@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "crane/bus/cdr.hpp"
 #include "crane/recording/mcap_reader.hpp"
@@ -27,17 +28,24 @@ bool decode(const topics::Topic<T>& topic, const recording::Message& message, T&
       .decode(message.data.subspan(kEncapsulation_bytes), false, &out);
 }
 
-/// Newest sample of each tick from the writer that was received last before `known_ns`, or first; or from any
-/// writer.
+/// Start-up number of the first writer from `known_ns` (clock of the writers) on. The order of arrival proves
+/// nothing: the recorder may discover a restarted process later than the other processes do.
 template <class Heard>
-auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::int64_t known_ns,
-             bool nobody_else) {
+std::uint32_t first_writer_from(const std::vector<Heard>& heard, std::int64_t known_ns) {
+  const Heard* first = nullptr;
+  for (const auto& each : heard)
+    if (each.written_ns >= known_ns && (first == nullptr || each.written_ns < first->written_ns))
+      first = &each;
+  return first == nullptr ? 0 : first->sample.header.epoch;
+}
+
+/// Newest sample of each tick that arrived until `until_ns`, of the writer `trusted` or of any writer.
+template <class Heard>
+auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::optional<std::uint32_t> trusted) {
   std::map<std::uint64_t, decltype(Heard::sample)> result;
-  std::uint32_t trusted = 0;
   for (const auto& [log_ns, written_ns, sample] : heard) {
     if (log_ns > until_ns) break;
-    if (log_ns < known_ns || trusted == 0 || nobody_else) trusted = sample.header.epoch;
-    if (sample.header.epoch == trusted) result[sample.header.tick] = sample;
+    if (!trusted || sample.header.epoch == *trusted) result[sample.header.tick] = sample;
   }
   return result;
 }
@@ -92,12 +100,11 @@ Recorded::Recorded(const std::filesystem::path& file) {
   });
 }
 
-/// Time at which the recorder received the first state sampled at this time or later.
-std::int64_t Recorded::log_time_of(std::int64_t monotonic_ns) const {
+const Recorded::Heard<msg::State>* Recorded::first_state_from(std::int64_t monotonic_ns) const {
   const auto found = std::ranges::find_if(states_, [monotonic_ns](const auto& heard) {
     return heard.sample.header.sample_time_ns >= monotonic_ns;
   });
-  return found == states_.end() ? std::numeric_limits<std::int64_t>::max() : found->log_ns;
+  return found == states_.end() ? nullptr : &*found;
 }
 
 /// The recorder takes one topic after the other: its order of arrival does not show which of two samples of
@@ -114,10 +121,16 @@ std::uint64_t Recorded::first_tick_after(std::int64_t written_ns) const {
 }
 
 std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t until_ns, bool nobody_else) const {
-  const auto known_ns = log_time_of(from_ns), until_log_ns = log_time_of(until_ns);
-  const auto states = by_tick(states_, until_log_ns, known_ns, nobody_else);
-  const auto commands = by_tick(commands_, until_log_ns, known_ns, nobody_else);
-  const auto statuses = by_tick(statuses_, until_log_ns, known_ns, nobody_else);
+  const auto *begin = first_state_from(from_ns), *end = first_state_from(until_ns);
+  if (begin == nullptr) return {};
+  const auto until_log_ns = end == nullptr ? std::numeric_limits<std::int64_t>::max() : end->log_ns;
+  const auto of_run = [&](const auto& heard) {
+    return by_tick(heard, until_log_ns,
+                   nobody_else ? std::nullopt : std::optional{first_writer_from(heard, begin->written_ns)});
+  };
+  const auto states = of_run(states_);
+  const auto commands = of_run(commands_);
+  const auto statuses = of_run(statuses_);
   std::vector<Row> rows;
   for (const auto& [tick, state] : states) {
     const auto time_ns = state.header.sample_time_ns;
