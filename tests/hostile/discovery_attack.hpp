@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
+#include <string>
 
 #include "../system/running_stack.hpp"
+#include "copied_writer.hpp"
 #include "forged.hpp"
 #include "loop_processes.hpp"
 #include "wire.hpp"
@@ -25,11 +28,19 @@ class DiscoveryAttack : public testing::Test {
 
   void SetUp() override {
     if (!Ear::permitted()) GTEST_SKIP() << "listening on the loop-back interface needs CAP_NET_RAW";
-    start("");
+    start(default_options());
   }
-  void start(const std::string& keys, bool ledger = true) {
+  static stack::LaunchOptions default_options() {
+    return system_test::launch_options(kDomain, kDiscoveryRig);
+  }
+  static stack::LaunchOptions without_ledger() {
+    auto options = default_options();
+    options.ledger = nullptr;
+    return options;
+  }
+  void start(const stack::LaunchOptions& options) {
     stack_.reset();
-    stack_.emplace(kDomain, kDiscoveryRig, stack::Plant::simulated, keys, "cyclone", ledger);
+    stack_.emplace(options);
     ASSERT_TRUE(stack_->until([this] { return is(crane_STATE_LOCKED); }, 10s));
     stack_->listen(1s);  // the supervisor refuses a reset in its first second
   }
@@ -66,31 +77,86 @@ class DiscoveryAttack : public testing::Test {
       mouth_.send(packet);
     }
   }
+  /// Forges `spoil`ed samples for every tick of the bridge, and with extreme ticks and times, for a second.
+  /// @param bus   of the attacker: tells it the ticks
+  /// @param copy  makes the CopiedWriter
+  template <class Copy, class Spoil>
+  void forge(bus::Bus& bus, const Copy& copy, const Spoil& spoil) {
+    auto states = bus.subscriber(topics::state);
+    ASSERT_TRUE(stack_->until([&] { return states.take().has_value(); }, 5s));
+    const auto copied = copy();
+    auto& forged = *copied;
+    const auto send = [&](std::uint64_t tick, std::int64_t time_ns) {
+      auto sample = forged.model();
+      spoil(sample);
+      sample.header.tick = tick;
+      sample.header.sample_time_ns = time_ns;
+      forged.send(sample);
+    };
+    stack_->forget();
+    const auto end = std::chrono::steady_clock::now() + 1s;
+    while (std::chrono::steady_clock::now() < end) {
+      bus.wait(2ms);
+      while (const auto state = states.take()) {
+        const auto& now = state->header;
+        for (const std::uint64_t ahead : {0, 1}) send(now.tick + ahead, now.sample_time_ns);
+        if (now.tick % 10 != 0) continue;
+        using Times = std::numeric_limits<std::int64_t>;
+        for (const auto time_ns : {Times::min(), std::int64_t{0}, Times::max()})
+          for (const auto tick : {std::uint64_t{0}, now.tick, std::numeric_limits<std::uint64_t>::max()})
+            send(tick, time_ns);
+      }
+      stack_->listen(0ms);
+    }
+    stack_->listen(300ms);
+    std::cout << forged.sent() << " packets; ";
+  }
   [[nodiscard]] std::map<std::string, long> memory_kb() {
     std::map<std::string, long> all;
     for (const char* process : kLoop)
       if (const auto pid = stack_->children().pid_of(process)) all[process] = resident_kb(*pid);
     return all;
   }
-  void expect_nothing_moved() const {
-    const auto& states = stack_->observer().states();
+  using States = std::vector<msg::State>;
+  [[nodiscard]] const States& states() const { return stack_->observer().states(); }
+  static void expect_nothing_moved(const States& states) {
     ASSERT_GT(states.size(), 50U);
     for (const auto& state : states)
       for (std::size_t i = 0; i < 2; ++i)
         ASSERT_TRUE(state.applied_v[i] == 0 && state.brake_closed[i]) << "tick " << state.header.tick;
     EXPECT_EQ(states.front().trolley_position_m, states.back().trolley_position_m);
   }
+  /// Largest distance of the trolley from its first position.
+  [[nodiscard]] static double farthest_m(const States& states) {
+    double farthest = 0;
+    for (const auto& state : states)
+      farthest = std::max(farthest, std::abs(state.trolley_position_m - states.front().trolley_position_m));
+    return farthest;
+  }
+  /// 0 V and closed brakes.
+  [[nodiscard]] static bool stands(const msg::State& state) {
+    return state.brake_closed[0] && state.brake_closed[1] && state.applied_v[0] == 0 &&
+           state.applied_v[1] == 0;
+  }
+  /// Time from the first state to the first one with 0 V and closed brakes [ms]; the last state when there is
+  /// none.
+  [[nodiscard]] static double stop_ms(const States& states) {
+    const auto stop = std::ranges::find_if(states, stands);
+    const auto& last = stop == states.end() ? states.back() : *stop;
+    return static_cast<double>(last.header.sample_time_ns - states.front().header.sample_time_ns) / 1e6;
+  }
   /// HOLD, or 0 V with closed brakes; the crane has not moved.
   void expect_hold_or_stop() const {
-    const auto& states = stack_->observer().states();
-    ASSERT_FALSE(states.empty());
-    for (const auto& state : states)
-      ASSERT_NEAR(state.trolley_position_m, states.front().trolley_position_m, kStill_m);
-    const auto& last = states.back();
-    EXPECT_TRUE(is(crane_STATE_HOLD) || (last.brake_closed[0] && last.brake_closed[1] &&
-                                         last.applied_v[0] == 0 && last.applied_v[1] == 0));
+    ASSERT_FALSE(states().empty());
+    EXPECT_LE(farthest_m(states()), kStill_m);
+    const auto& last = states().back();
+    EXPECT_TRUE(is(crane_STATE_HOLD) || stands(last));
     const auto& status = stack_->observer().statuses().back();
-    std::cout << experiments::in_words(status) << "; overruns " << last.overruns - states.front().overruns
+    std::cout << "trolley moved by " << farthest_m(states()) << " m; "
+              << (stands(last)
+                      ? "brakes closed after " + std::to_string(std::lround(stop_ms(states()))) + " ms; "
+                      : "brakes open; ")
+              << experiments::in_words(status) << "; overruns " << last.overruns - states().front().overruns
               << '\n';
   }
   void expect_growth_below(long most_kb, const std::map<std::string, long>& before_kb) {

@@ -84,6 +84,18 @@ Entities entities_of(const Bytes& message, const Submessage& data) {
   return entities;
 }
 
+Bytes alone(const Bytes& message, const Submessage& data) {
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    return std::span{message}.subspan(begin, end - begin);
+  };
+  Bytes result;
+  for (const auto bytes : {part(0, kHeaderBytes), part(data.at, data.content + data.size)})
+    result.insert(result.end(), bytes.begin(), bytes.end());
+  constexpr std::size_t kReader = kHeaderBytes + 8;  // after the headers of message and submessage, flags
+  std::ranges::copy(kNoEntity, result.begin() + kReader);
+  return result;
+}
+
 Bytes participant(const GuidPrefix& prefix, std::uint32_t domain) {
   constexpr std::uint64_t kAllEndpoints = 0x0C3F;
   auto content = data_head({kNoEntity, kSpdpWriter}, 1);

@@ -19,6 +19,8 @@ struct Entities {
   EntityId reader{}, writer{};
 };
 [[nodiscard]] Entities entities_of(const Bytes& message, const Submessage& data);
+/// A message of the same participant with only this DATA submessage, for all readers of its writer.
+[[nodiscard]] Bytes alone(const Bytes& message, const Submessage& data);
 
 /// Announces a participant with an infinite lease, whose locators lead nowhere.
 [[nodiscard]] Bytes participant(const GuidPrefix& prefix, std::uint32_t domain);

@@ -3,8 +3,8 @@
 #include "../recording/temporary_directory.hpp"
 #include "crane/security/keys.hpp"
 #include "discovery_attack.hpp"
+#include "false_commands.hpp"
 #include "false_supervisor.hpp"
-#include "impostor.hpp"
 #include "stack/operator_client.hpp"
 
 namespace crane::hostile {
@@ -98,7 +98,7 @@ TEST_F(DiscoveryAttack, ThatEndsSupervisorAndBridgeForEachOtherMovesNothing) {
     stranger.speak();
     stack_->listen(0ms);
   }
-  expect_nothing_moved();
+  expect_nothing_moved(states());
 }
 
 /// The attacker knows the identifiers of participants from their unencrypted headers, and those of writers
@@ -113,7 +113,9 @@ TEST_F(DiscoveryAttack, WithKeysHasNoEffect) {
   }
   const recording::TemporaryDirectory directory;
   security::make(directory / "keys", security::valid_for(1));
-  start((directory / "keys").string());
+  auto options = default_options();
+  options.bus.secure = (directory / "keys").string();
+  start(options);
   std::set<GuidPrefix> participants;
   const auto end_of_search = std::chrono::steady_clock::now() + 1s;
   const auto own = ports("supervisor");
@@ -153,7 +155,7 @@ class BlindSupervisor : public DiscoveryAttack, public testing::WithParamInterfa
     const auto writer = entities_of(state.message, found.data).writer;
     const auto prefix = prefix_of(state.message);
     auto number = sequence_number_of(state.message, found.data);
-    Impostor impostor{heard("plant", topics::command)};
+    FalseCommands impostor{heard("plant", topics::command)};
     bus::Bus bus{runtime::bus_options(stack_->bus_options(), "stranger", crane_SOURCE_MONITOR, 9)};
     auto states = bus.subscriber(topics::state);
     stack_->forget();
@@ -172,32 +174,26 @@ class BlindSupervisor : public DiscoveryAttack, public testing::WithParamInterfa
 
 TEST_P(BlindSupervisor, MovesNothing) {
   attack_for(4s);
-  expect_nothing_moved();
+  expect_nothing_moved(states());
 }
 
 /// Without keys and without the ledger no process can detect this attack: the supervisor sees no effect of
 /// the forged commands. The limits of LastLine remain.
 TEST_P(BlindSupervisor, WithoutTheLedgerLeavesTheLimitsOfTheBridgeInForce) {
-  ASSERT_NO_FATAL_FAILURE(start("", false));
+  ASSERT_NO_FATAL_FAILURE(start(without_ledger()));
   attack_for(4s);
-  const auto& states = stack_->observer().states();
-  double farthest_m = 0;
-  std::size_t open = 0;
-  for (const auto& state : states) {
-    open += state.brake_closed[0] ? 0 : 1;
-    farthest_m = std::max(farthest_m, std::abs(state.trolley_position_m - states.front().trolley_position_m));
-  }
+  const auto open = std::ranges::count_if(states(), [](const auto& state) { return !state.brake_closed[0]; });
   const auto rig = configuration::load_rig(stack::find_rig(kDiscoveryRig));
   const auto& trolley = rig.drives[0];
-  for (const auto& state : states) {
+  for (const auto& state : states()) {
     ASSERT_GE(state.trolley_position_m, trolley.low_limit);
     ASSERT_LE(state.trolley_position_m, trolley.high_limit);
   }
-  std::cout << "brakes open in " << open << " of " << states.size() << " states, trolley moved by "
-            << farthest_m << " m, latch " << states.back().latch_reason << '\n';
-  const auto& last = states.back();
+  std::cout << "brakes open in " << open << " of " << states().size() << " states, trolley moved by "
+            << farthest_m(states()) << " m, latch " << states().back().latch_reason << '\n';
+  const auto& last = states().back();
   EXPECT_TRUE(last.brake_closed[0] && last.brake_closed[1] && last.applied_v[0] == 0);
-  EXPECT_GT(open, 50U) << "the attack has no effect: MovesNothing proves nothing";
+  EXPECT_GT(open, 50) << "the attack has no effect: MovesNothing proves nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(By, BlindSupervisor, testing::Values(Blinding::skips_samples, Blinding::ends_bridge),

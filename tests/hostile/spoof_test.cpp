@@ -11,7 +11,7 @@
 #include "../system/running_stack.hpp"
 #include "crane/boards/linked_rig.hpp"
 #include "crane/security/keys.hpp"
-#include "impostor.hpp"
+#include "false_commands.hpp"
 #include "wire.hpp"
 
 namespace crane::hostile {
@@ -121,7 +121,7 @@ TEST_F(Spoof, NoneOf10000ForgedOrReplayedPacketsMovesACraneWithKeys) {
 TEST_F(Spoof, WithoutTheLedgerForgedPacketsEndTheSupervisorBeforeTheCraneMoves) {
   RunningStack stack{kDomain, "virginia_tech_tower", stack::Plant::simulated, "", "cyclone", false};
   wait_until_locked(stack);
-  std::optional<Impostor> impostor;
+  std::optional<FalseCommands> impostor;
   for (auto& packet : heard(stack, "plant", 100))
     if (!impostor && find(packet.message, topics::command)) impostor.emplace(packet);
   ASSERT_TRUE(impostor);

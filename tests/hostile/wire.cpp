@@ -40,12 +40,12 @@ std::optional<Packet> parsed(std::span<const std::uint8_t> packet) {
 
 }  // namespace
 
-Ear::Ear() : socket_{packet_socket()} {
+Ear::Ear(const char* interface) : socket_{packet_socket()} {
   if (socket_ < 0) fail("packet socket");
   sockaddr_ll address{};
   address.sll_family = AF_PACKET;
   address.sll_protocol = htons(ETH_P_IP);
-  address.sll_ifindex = static_cast<int>(::if_nametoindex("lo"));
+  address.sll_ifindex = static_cast<int>(::if_nametoindex(interface));
   constexpr int kBuffer_bytes = 32 << 20;
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBuffer_bytes, sizeof kBuffer_bytes);
   if (::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) fail("bind");

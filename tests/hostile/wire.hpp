@@ -1,5 +1,5 @@
 #pragma once
-/// Receives the traffic on the loop-back interface of this host, and sends packets to it.
+/// Receives the traffic on an interface of this host, and sends packets.
 #include <netinet/in.h>
 
 #include <chrono>
@@ -17,10 +17,10 @@ struct Packet {
   [[nodiscard]] std::uint16_t port() const { return ntohs(to.sin_port); }
 };
 
-/// Receives every RTPS message on the loop-back interface. Needs CAP_NET_RAW.
+/// Receives every RTPS message on one interface. Needs CAP_NET_RAW.
 class Ear {
  public:
-  Ear();  ///< @throws std::system_error
+  explicit Ear(const char* interface = "lo");  ///< @throws std::system_error
   ~Ear();
   Ear(const Ear&) = delete;
   Ear& operator=(const Ear&) = delete;

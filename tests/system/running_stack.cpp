@@ -51,15 +51,30 @@ void Observer::forget() {
   command_times_ns_.clear();
 }
 
+stack::LaunchOptions launch_options(std::uint32_t domain, const std::string& rig) {
+  stack::LaunchOptions options;
+  options.bus.domain = domain;
+  options.bus.crane = crane_name();
+  options.rig = stack::find_rig(rig).string();
+  return options;
+}
+
+namespace {
+stack::LaunchOptions options_with(stack::LaunchOptions options, const std::string& keys,
+                                  const std::string& vendor, bool ledger) {
+  options.bus.secure = keys;
+  options.bus.vendor = vendor;
+  if (!ledger) options.ledger = nullptr;
+  return options;
+}
+}  // namespace
+
 RunningStack::RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant,
                            const std::string& keys, const std::string& vendor, bool ledger)
-    : specs_{stack::stack_with(plant)} {
-  options_.bus.domain = domain;
-  options_.bus.crane = crane_name();
-  options_.bus.secure = keys;
-  options_.bus.vendor = vendor;
-  options_.rig = stack::find_rig(rig).string();
-  if (!ledger) options_.ledger = nullptr;
+    : RunningStack{options_with(launch_options(domain, rig), keys, vendor, ledger), plant} {}
+
+RunningStack::RunningStack(stack::LaunchOptions options, stack::Plant plant)
+    : options_{std::move(options)}, specs_{stack::stack_with(plant)} {
   if (plant == stack::Plant::hardware)
     stack::launch_rig(children_, configuration::load_rig(options_.rig), options_);
   stack::launch(children_, specs_, options_);

@@ -44,9 +44,13 @@ class Observer {
   std::map<std::string, msg::NodeStatus> nodes_;
 };
 
+/// Options of a stack of this test, with a ledger.
+[[nodiscard]] stack::LaunchOptions launch_options(std::uint32_t domain, const std::string& rig);
+
 class RunningStack {
  public:
   /// Starts a stack and waits until it is ready.
+  explicit RunningStack(stack::LaunchOptions options, stack::Plant plant = stack::Plant::simulated);
   /// @param keys    directory of keys; empty: none
   /// @param vendor  DDS vendor of all processes
   /// @param ledger  false: the processes of the loop have no ledger, as when they are started one by one
