@@ -1,6 +1,7 @@
 #include "replay/arrival_order.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "replay/lost_request.hpp"
@@ -13,6 +14,8 @@ namespace {
 constexpr std::uint64_t kLate_ticks = 128;
 /// Time from the publication of a sample of crane/jog until the supervisor has certainly received it.
 constexpr std::int64_t kArrival_ns = 1'000'000;
+constexpr auto kBegin_ns = std::numeric_limits<std::int64_t>::min();
+constexpr auto kEnd_ns = std::numeric_limits<std::int64_t>::max();
 
 /// The status shows this deflection of the stick. In maintenance, the supervisor reduces it.
 bool shows(const msg::SupervisorStatus& status, const msg::Jog& jog) {
@@ -22,6 +25,18 @@ bool shows(const msg::SupervisorStatus& status, const msg::Jog& jog) {
     if (!same) return false;
   }
   return true;
+}
+
+/// After ticks without samples: the reference follows from the state of one of these ticks, or the bridge
+/// applies the command of one of them. Then the recorder has missed samples.
+bool answers_unknown_state(const RecordedTick& tick, std::uint64_t last_known) {
+  const auto* cdr = tick.find(topics::state.description);
+  const auto* reference = tick.find(topics::reference.description);
+  const auto state = cdr == nullptr ? std::nullopt : decoded(topics::state, *cdr);
+  if (!state) return false;
+  const auto planned = reference == nullptr ? std::nullopt : header_of(*reference);
+  return state->applied_command_tick > last_known ||
+         (planned && planned->sample_time_ns != state->header.sample_time_ns);
 }
 
 }  // namespace
@@ -47,7 +62,7 @@ void ArrivalOrder::note(const recording::Message& message) {
   } else if (topic == topics::reply.description.name) {
     const auto reply = decoded(topics::reply, cdr);
     if (reply && reply->header.source == crane_SOURCE_SUPERVISOR)
-      replies_[reply->header.tick].push_back(*reply);
+      replies_[reply->header.tick].push_back({message.publish_time_ns, *reply});
   } else if (topic == topics::jog.description.name) {
     if (const auto jog = decoded(topics::jog, cdr))
       jogs_.push_back({message.publish_time_ns, *jog, std::move(cdr)});
@@ -61,6 +76,8 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   ticks_.clear();
   epochs_.clear();
   before_.reset();
+  last_state_.reset();
+  missing_demand_ = 0;
   derived_.clear();
   next_jog_ = 0;
   assumed_ = 0;
@@ -72,9 +89,8 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
     auto first = ticks_.extract(ticks_.begin());
     auto& tick = first.mapped().tick;
     // The processes discover the bridge one after the other; the supervisor completes the stack.
-    if (begins && tick.find(topics::state.description) != nullptr &&
-        tick.find(topics::supervisor.description) == nullptr) {
-      has_earlier_ = true;
+    if (begins && tick.find(topics::supervisor.description) == nullptr) {
+      has_earlier_ = has_earlier_ || tick.find(topics::state.description) != nullptr;
       return;
     }
     complete(first.mapped());
@@ -113,6 +129,7 @@ bool ArrivalOrder::begin(RecordedTick& first, const std::function<bool(const Rec
     state->header.tick = tick;
     state->header.sample_time_ns = time_ns - static_cast<std::int64_t>(first.number - tick) * period_ns_;
     RecordedTick assumed{.number = tick, .assumed = true};
+    assumed.steps.planner_begins = tick == 0;
     assumed.samples.emplace(topics::state.description.name, published(topics::state, *state));
     ++assumed_;
     if (!visit(assumed)) return false;
@@ -127,57 +144,120 @@ void ArrivalOrder::gather(const recording::Message& message, const topics::Descr
   auto& tick = gathered.tick;
   tick.number = header->tick;
   const std::string name{topic.name};
-  if (!tick.samples.try_emplace(topic.name, message.data.begin(), message.data.end()).second)
-    tick.ends = "two samples of " + name + ": a process stepped without a new state";
   if (epochs_.try_emplace(topic.name, header->epoch).first->second != header->epoch)
     tick.ends = name + " has another start-up number: its process was restarted";
-  if (topic.name == topics::supervisor.description.name) gathered.decided_ns = message.publish_time_ns;
+  Cdr cdr{message.data.begin(), message.data.end()};
+  if (tick.find(topic) == nullptr) {
+    tick.samples.emplace(topic.name, std::move(cdr));
+    tick.published_ns.emplace(topic.name, message.publish_time_ns);
+  } else if (topic.name == topics::supervisor.description.name) {
+    gathered.more_statuses.push_back({message.publish_time_ns, std::move(cdr)});
+  } else if (topic.name == topics::command.description.name) {
+    gathered.more_commands.push_back({message.publish_time_ns, std::move(cdr)});
+  } else {
+    tick.ends = "two samples of " + name;
+  }
 }
 
 void ArrivalOrder::complete(Gathered& gathered) {
   auto& tick = gathered.tick;
-  if (tick.find(topics::state.description) == nullptr)
-    tick.ends = "no " + std::string{topics::state.description.name} +
-                ": the bridge skipped the tick, or the recorder did not receive the sample";
+  describe(tick);
   const auto* cdr = tick.find(topics::supervisor.description);
   const auto status = cdr == nullptr ? std::nullopt : decoded(topics::supervisor, *cdr);
-  if (!status) return;
-  add_requests(tick, *status);
-  add_jogs(gathered, *status);
+  if (!status) {
+    if (tick.steps.supervisor) missing_demand_.reset();
+    return;
+  }
+  const auto decided_ns = tick.published_ns.at(topics::supervisor.description.name);
+  const bool last = gathered.more_statuses.empty();
+  add_requests(tick.number, *status, {kBegin_ns, last ? kEnd_ns : decided_ns}, tick.inputs);
+  add_jogs(tick, *status, decided_ns);
   before_ = status;
+  add_steps_without_state(gathered);
+  missing_demand_ = before_->missing_demand_count;
 }
 
-void ArrivalOrder::add_requests(RecordedTick& tick, const msg::SupervisorStatus& status) {
-  const auto replies = replies_.find(tick.number);
+/// Without a state, and without samples that answer it, the bridge has skipped the tick. The reference of the
+/// tick was published in the tick before.
+void ArrivalOrder::describe(RecordedTick& tick) {
+  if (tick.find(topics::state.description) == nullptr) {
+    const auto answers = tick.samples.size() - tick.samples.count(topics::reference.description.name);
+    tick.steps = {
+        .planner = false, .tracking = false, .anti_swing = false, .friction = false, .supervisor = false};
+    if (answers > 0)
+      tick.ends =
+          "no " + std::string{topics::state.description.name} + ": the recorder did not receive the sample";
+    tick.irregular = "no " + std::string{topics::state.description.name} + ": the bridge skipped the tick";
+    return;
+  }
+  if (last_state_ && tick.number > *last_state_ + 1 && answers_unknown_state(tick, *last_state_))
+    tick.ends = "the recorder did not receive the samples of the tick before";
+  last_state_ = tick.number;
+  const auto found = ticks_.find(tick.number + 1);
+  const auto* next = found == ticks_.end() ? nullptr : &found->second.tick;
+  tick.steps = steps_of(tick, next, period_ns_, missing_demand_);
+  if (next != nullptr)
+    if (const auto* reference = next->find(topics::reference.description)) tick.next_reference = *reference;
+  auto regular = tick.steps;
+  if (tick.number == 0) regular.planner_begins = false;  // there is no tick before
+  tick.irregular = irregularity(regular);
+}
+
+void ArrivalOrder::add_steps_without_state(Gathered& gathered) {
+  auto& tick = gathered.tick;
+  auto& statuses = gathered.more_statuses;
+  const bool all_commands = gathered.more_commands.size() == statuses.size();
+  auto before_ns = tick.published_ns.at(topics::supervisor.description.name);
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const auto status = decoded(topics::supervisor, statuses[i].cdr);
+    if (!status) continue;
+    StepWithoutState step;
+    const auto sent_ns = statuses[i].sent_ns;
+    add_requests(tick.number, *status, {before_ns, i + 1 == statuses.size() ? kEnd_ns : sent_ns},
+                 step.inputs);
+    step.after_ns = sent_ns - std::exchange(before_ns, sent_ns);
+    if (all_commands) step.command = std::move(gathered.more_commands[i].cdr);
+    step.status = std::move(statuses[i].cdr);
+    tick.without_state.push_back(std::move(step));
+    before_ = status;
+  }
+  if (!statuses.empty()) tick.irregular = "the supervisor stepped without a new state";
+}
+
+void ArrivalOrder::add_requests(std::uint64_t tick, const msg::SupervisorStatus& status, const Between& times,
+                                std::vector<Received>& inputs) {
+  const auto replies = replies_.find(tick);
   if (replies == replies_.end()) return;
-  for (const auto& reply : replies->second) {
+  for (const auto& [sent_ns, reply] : replies->second) {
+    if (sent_ns <= times.after_ns || sent_ns > times.until_ns) continue;
     if (const auto found = requests_.find({reply.client, reply.request_id}); found != requests_.end()) {
-      tick.inputs.push_back({&topics::request.description, found->second});
+      inputs.push_back({&topics::request.description, found->second});
     } else if (reply.accepted && before_) {
       auto request = request_behind(reply, *before_, status);
       if (!request) continue;
       const auto jog = std::ranges::find_if(
           jogs_, [&](const Jog& one) { return one.sample.request_id == reply.request_id; });
       if (jog != jogs_.end()) request->header.epoch = jog->sample.header.epoch;
-      tick.inputs.push_back({&topics::request.description, published(topics::request, *request)});
-      derived_.push_back("tick " + std::to_string(tick.number) + ": " + in_words(*request));
+      inputs.push_back({&topics::request.description, published(topics::request, *request)});
+      derived_.push_back("tick " + std::to_string(tick) + ": " + in_words(*request));
     }
   }
 }
 
 /// The supervisor has received the samples that were published kArrival_ns before its decision. Its status
 /// shows whether it has also received those after them.
-void ArrivalOrder::add_jogs(Gathered& gathered, const msg::SupervisorStatus& status) {
+void ArrivalOrder::add_jogs(RecordedTick& tick, const msg::SupervisorStatus& status,
+                            std::int64_t decided_ns) {
   const auto deliver_until = [&](std::size_t end) {
     for (; next_jog_ < end; ++next_jog_)
-      gathered.tick.inputs.push_back({&topics::jog.description, jogs_[next_jog_].cdr});
+      tick.inputs.push_back({&topics::jog.description, jogs_[next_jog_].cdr});
   };
   const auto sent_until = [&](std::int64_t time_ns) {
     return static_cast<std::size_t>(std::ranges::upper_bound(jogs_, time_ns, {}, &Jog::sent_ns) -
                                     jogs_.begin());
   };
-  deliver_until(sent_until(gathered.decided_ns - kArrival_ns));
-  const auto possible = sent_until(gathered.decided_ns);
+  deliver_until(sent_until(decided_ns - kArrival_ns));
+  const auto possible = sent_until(decided_ns);
   if (next_jog_ > 0 && shows(status, jogs_[next_jog_ - 1].sample)) return;
   for (auto end = next_jog_ + 1; end <= possible; ++end)
     if (shows(status, jogs_[end - 1].sample)) return deliver_until(end);

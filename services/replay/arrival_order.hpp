@@ -35,31 +35,50 @@ class ArrivalOrder {
     msg::Jog sample;
     Cdr cdr;
   };
+  struct Replied {
+    std::int64_t sent_ns;  ///< clock of the writer
+    msg::Reply reply;
+  };
+  struct Published {
+    std::int64_t sent_ns;  ///< clock of the writer
+    Cdr cdr;
+  };
   struct Gathered {
     RecordedTick tick;
-    std::int64_t decided_ns = 0;  ///< time at which the supervisor published its status; clock of the writer
+    std::vector<Published> more_commands, more_statuses;  ///< second and later samples of the tick
   };
   void note(const recording::Message& message);
   void gather(const recording::Message& message, const topics::Description& topic);
   void complete(Gathered& gathered);
+  void describe(RecordedTick& tick);
+  void add_steps_without_state(Gathered& gathered);
   /// Decides how the stack began: with the first complete tick, or before the recorder did. In the second
   /// case, visits the ticks before the first recorded one.
   bool begin(RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit);
-  void add_requests(RecordedTick& tick, const msg::SupervisorStatus& status);
-  void add_jogs(Gathered& gathered, const msg::SupervisorStatus& status);
+  struct Between {
+    std::int64_t after_ns, until_ns;
+  };
+  /// Adds the requests that the supervisor executed in the step with this status.
+  /// @param times  of the status before, excluded, and of this status: a reply belongs to the first status
+  ///   that was published after it
+  void add_requests(std::uint64_t tick, const msg::SupervisorStatus& status, const Between& times,
+                    std::vector<Received>& inputs);
+  void add_jogs(RecordedTick& tick, const msg::SupervisorStatus& status, std::int64_t decided_ns);
 
   recording::McapReader& reader_;
   std::int64_t period_ns_ = 0;
   std::string controller_;
   std::map<std::pair<std::string, std::uint64_t>, Cdr> requests_;  ///< by client and id
-  std::map<std::uint64_t, std::vector<msg::Reply>> replies_;       ///< of the supervisor, by tick
+  std::map<std::uint64_t, std::vector<Replied>> replies_;          ///< of the supervisor, by tick
   std::vector<Jog> jogs_;
   std::size_t next_jog_ = 0;
   std::map<std::uint64_t, Gathered> ticks_;           ///< not visited yet
   std::map<std::string_view, std::uint32_t> epochs_;  ///< of the writers, by topic
-  std::optional<msg::SupervisorStatus> before_;       ///< status of the previous tick
+  std::optional<msg::SupervisorStatus> before_;       ///< status of the previous step of the supervisor
+  std::optional<std::uint64_t> missing_demand_;       ///< its missing_demand_count; nothing: unknown
   std::vector<std::string> derived_;
   std::uint64_t assumed_ = 0;
+  std::optional<std::uint64_t> last_state_;  ///< last tick with a state
   bool has_earlier_ = false;  ///< true: there are states before the first step of the supervisor
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "replay/samples.hpp"
+#include "replay/steps.hpp"
 
 namespace crane::replay {
 
@@ -16,13 +17,26 @@ struct Received {
   Cdr cdr;
 };
 
+/// A step of the supervisor without a state. Its samples have the number of the last tick.
+struct StepWithoutState {
+  std::vector<Received> inputs{};  ///< of operators, before the step
+  std::optional<Cdr> command{};    ///< nothing: not recorded
+  Cdr status{};
+  std::int64_t after_ns = 0;  ///< time since the step of the supervisor before it
+};
+
 struct RecordedTick {
   std::uint64_t number = 0;
   std::vector<Received> inputs{};             ///< of operators, before the state of this tick, in their order
   std::map<std::string_view, Cdr> samples{};  ///< by name of the topic; loop topics only
-  bool begins = false;   ///< the stack began with this tick; its processes were not there before
-  bool assumed = false;  ///< not recorded: the crane rested as in the first recorded tick
-  std::string ends{};    ///< not empty: why a replay cannot repeat this tick and those after it
+  std::map<std::string_view, std::int64_t> published_ns{};  ///< clock of the writer, by name of the topic
+  Steps steps{};
+  std::optional<Cdr> next_reference{};            ///< of the next tick; nothing: not recorded
+  std::vector<StepWithoutState> without_state{};  ///< after the step of this tick
+  bool begins = false;      ///< the stack began with this tick; its processes were not there before
+  bool assumed = false;     ///< not recorded: the crane rested as in the first recorded tick
+  std::string irregular{};  ///< not empty: what only a stack can repeat that steps as `steps` states
+  std::string ends{};       ///< not empty: why a replay cannot repeat this tick and those after it
   [[nodiscard]] const Cdr* find(const topics::Description& topic) const {
     const auto found = samples.find(topic.name);
     return found == samples.end() ? nullptr : &found->second;

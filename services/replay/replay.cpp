@@ -1,9 +1,11 @@
 #include "replay/replay.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
 #include "crane/bus/seal.hpp"
+#include "replay/prescribed_stack.hpp"
 #include "replay/replayed_stack.hpp"
 #include "stack/stack.hpp"
 
@@ -30,6 +32,7 @@ class Comparison {
       throw Refusal("no tick of the recording can be replayed" +
                     (result_.ends.empty() ? "" : "; " + result_.ends) + damage());
     result_.by_recorder = run_.by_recorder();
+    result_.decided_by_outputs = stack_.decided_by_outputs();
     result_.equal_ticks = next_ - begin_;
     result_.assumed_ticks = run_.assumed_ticks();
     result_.derived_requests = run_.derived_requests();
@@ -49,14 +52,67 @@ class Comparison {
       result_.ends = "tick " + std::to_string(tick.number) + ": " + tick.ends;
       return false;
     }
+    if (stack_.is_prescribed() && run_.problems().empty() && tick.number > next_) {
+      result_.skipped_ticks += tick.number - next_;  // by the bridge, without a sample of any process
+      next_ = tick.number;
+    }
+    if (stack_.is_prescribed() && tick.number == next_ && tick.find(topics::state.description) == nullptr)
+      return skips(tick);
     const auto state = tick.number == next_ ? state_of(tick) : std::nullopt;
-    if (!state) return misses(topics::state.description);
+    if (!state) return misses(topics::state.description, tick);
     time_s_ = static_cast<double>(state->header.sample_time_ns) / 1e9;
     if (!is_intact(*state)) return false;
-    if (!stack_.receive(tick)) throw Refusal("tick " + std::to_string(next_) + ": a sample is not valid");
+    note_irregularity(tick);
+    if (!stack_.is_prescribed() && !tick.without_state.empty()) return end(tick.irregular);
+    if (!stack_.receive(tick)) {
+      if (!stack_.is_prescribed()) throw Refusal("tick " + std::to_string(next_) + ": a sample is not valid");
+      return end("a process had a sample that is in neither the recording nor the replay");
+    }
     for (const auto* topic : kCompared)
       if (is_compared(*topic, tick) && !is_equal(*topic, tick)) return false;
+    if (!are_equal_without_state(tick)) return false;
     stack_.forget_until(next_++);
+    return true;
+  }
+
+  bool end(const std::string& reason) {
+    result_.ends = "tick " + std::to_string(next_) + ": " + reason;
+    return false;
+  }
+
+  /// The bridge has skipped this tick. The planner has published its reference in the tick before.
+  bool skips(const RecordedTick& tick) {
+    ++result_.skipped_ticks;
+    if (!is_equal(topics::reference.description, tick)) return false;
+    stack_.forget_until(next_++);
+    return true;
+  }
+
+  void note_irregularity(const RecordedTick& tick) {
+    if (tick.irregular.empty()) return;
+    ++result_.irregular_ticks;
+    result_.steps_without_state += tick.without_state.size();
+    const bool undecided = tick.steps.planner_may_lack_status && !stack_.decides_by_outputs();
+    // The recording does not state the exact time of a step without a state.
+    if (!stack_.is_prescribed() || undecided || !tick.without_state.empty())
+      doubt_ = Doubt{next_, tick.irregular};
+  }
+
+  bool are_equal_without_state(const RecordedTick& tick) {
+    std::vector<const Cdr*> commands, statuses;
+    for (const auto& repeated : stack_.repeated()) {
+      if (repeated.topic->name == topics::command.description.name) commands.push_back(&repeated.cdr);
+      if (repeated.topic->name == topics::supervisor.description.name) statuses.push_back(&repeated.cdr);
+    }
+    const auto& steps = tick.without_state;
+    for (std::size_t i = 0; i < std::max(steps.size(), statuses.size()); ++i) {
+      const auto at = [i](const auto& replayed) { return i < replayed.size() ? replayed[i] : nullptr; };
+      if (i >= steps.size())
+        return differs(topics::supervisor.description, {"", "no sample", "a sample without a new state"});
+      if (steps[i].command && !is_same(topics::command.description, *steps[i].command, at(commands)))
+        return false;
+      if (!is_same(topics::supervisor.description, steps[i].status, at(statuses))) return false;
+    }
     return true;
   }
 
@@ -79,17 +135,25 @@ class Comparison {
   bool is_equal(const topics::Description& topic, const RecordedTick& tick) {
     const auto* recorded = tick.find(topic);
     const auto* replayed = stack_.find(topic, next_);
-    if (recorded == nullptr) return run_.by_recorder() ? is_not_recorded(topic) : misses(topic);
+    if (recorded == nullptr && run_.by_recorder()) return is_not_recorded(topic, replayed);
+    return recorded == nullptr ? misses(topic, tick) : is_same(topic, *recorded, replayed);
+  }
+
+  bool is_same(const topics::Description& topic, const Cdr& recorded, const Cdr* replayed) {
     if (replayed == nullptr) return differs(topic, {"", "a sample", "no sample"});
-    const auto header = run_.by_recorder() ? header_of(*recorded) : std::nullopt;
+    const auto header = run_.by_recorder() ? header_of(recorded) : std::nullopt;
     const auto found =
-        first_difference(topic, *recorded, header ? with_epoch(topic, *replayed, header->epoch) : *replayed);
+        first_difference(topic, recorded, header ? with_epoch(topic, *replayed, header->epoch) : *replayed);
     return !found || differs(topic, *found);
   }
 
-  bool is_not_recorded(const topics::Description& topic) {
+  /// @param replayed  null: the recording shows that the process did not step
+  bool is_not_recorded(const topics::Description& topic, const Cdr* replayed) {
+    if (replayed == nullptr) return true;
     ++result_.not_recorded;
-    missing_ = Missing{next_, std::string{topic.name}};
+    if (stack_.is_prescribed()) return true;
+    doubt_ =
+        Doubt{next_, std::string{topic.name} + " is not in the recording: a process was late or has ended"};
     return true;
   }
 
@@ -97,19 +161,17 @@ class Comparison {
   /// difference soon after a missing sample shows this, and not another behaviour of the program.
   bool differs(const topics::Description& topic, FieldDifference what) {
     constexpr std::uint64_t kEffect_ticks = 2;
-    if (missing_ && next_ - missing_->tick <= kEffect_ticks) {
-      result_.ends = "tick " + std::to_string(next_) + ": its " + std::string{topic.name} + " differs, and " +
-                     missing_->topic + " of tick " + std::to_string(missing_->tick) +
-                     " is not in the recording: a process was late or has ended";
-      return false;
-    }
+    if (doubt_ && next_ - doubt_->tick <= kEffect_ticks)
+      return end("its " + std::string{topic.name} + " differs, and in tick " + std::to_string(doubt_->tick) +
+                 ' ' + doubt_->what);
     result_.first = Difference{next_, time_s_, std::string{topic.name}, std::move(what)};
     return false;
   }
 
   /// A damaged recording ends before its first tick without all samples. In an intact recording, a missing
   /// sample is a difference.
-  bool misses(const topics::Description& topic) {
+  bool misses(const topics::Description& topic, const RecordedTick& tick) {
+    if (!tick.irregular.empty()) return end(tick.irregular);
     if (run_.problems().empty()) return differs(topic, {"", "no sample", "a sample"});
     return false;
   }
@@ -123,13 +185,13 @@ class Comparison {
   RecordedRun& run_;
   ReplayedStack& stack_;
   Result result_;
-  struct Missing {
+  struct Doubt {
     std::uint64_t tick;
-    std::string topic;
+    std::string what;
   };
-  std::optional<Missing> missing_;  ///< last compared sample that is not in the recording
-  std::uint64_t begin_ = 0;         ///< first tick
-  std::uint64_t next_ = 0;          ///< tick
+  std::optional<Doubt> doubt_;  ///< last tick that the replay cannot repeat for certain
+  std::uint64_t begin_ = 0;     ///< first tick
+  std::uint64_t next_ = 0;      ///< tick
   double time_s_ = 0;
 };
 
@@ -143,6 +205,10 @@ std::vector<runtime::ComponentSpec> loop_components() {
 
 Result replay(const std::filesystem::path& file, std::span<const runtime::ComponentSpec> components) {
   RecordedRun run{file};
+  if (run.by_recorder()) {
+    PrescribedStack stack{components, run.rig(), run.controller()};
+    return Comparison{run, stack}.make();
+  }
   InProcessReplay stack{components, run.rig(), run.controller()};
   return Comparison{run, stack}.make();
 }

@@ -21,6 +21,17 @@ class ReplayedStack {
   /// @return what the stack has published; nothing when it has published no sample of the tick
   [[nodiscard]] virtual const Cdr* find(const topics::Description& topic, std::uint64_t tick) const = 0;
   virtual void forget_until(std::uint64_t tick) = 0;
+  /// True: the components step as RecordedTick::steps states. False: they step in lockstep.
+  [[nodiscard]] virtual bool is_prescribed() const { return false; }
+  /// Ticks in which the recorded outputs decided whether a component had an input.
+  [[nodiscard]] virtual std::uint64_t decided_by_outputs() const { return 0; }
+  /// False: the outputs no longer decide, because too many ticks needed it.
+  [[nodiscard]] virtual bool decides_by_outputs() const { return false; }
+  /// Further samples of a tick, published since the call of receive(): those of steps without a state.
+  [[nodiscard]] virtual const std::vector<Received>& repeated() const {
+    static const std::vector<Received> none;
+    return none;
+  }
 };
 
 class InProcessReplay final : public ReplayedStack {

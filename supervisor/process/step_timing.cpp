@@ -13,19 +13,24 @@ constexpr std::int64_t kStart_ns = 2'000'000'000;  // longest wait for the first
 }  // namespace
 
 bool StepTiming::begins(bool complete, std::int64_t now_ns) {
-  if (begun_ || !realtime_) return true;
+  if (begun_ || clock_ != runtime::Clock::realtime) return true;
   if (state_due_ns_ == runtime::kNever) state_due_ns_ = now_ns + kStart_ns;
   begun_ = complete || now_ns >= state_due_ns_;
   return begun_;
 }
 
 void StepTiming::stepped(std::int64_t sampled_ns, std::int64_t now_ns) {
+  if (clock_ == runtime::Clock::prescribed) return expect_state_by(now_ns + 1);
   expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns + periods_ns(kRespitePeriods)));
 }
 
 bool StepTiming::is_silent(bool open, std::int64_t now_ns) {
   const auto due = due_ns(open);
   if (now_ns < due) return false;
+  if (clock_ == runtime::Clock::prescribed) {
+    expect_state_by(now_ns + 1);
+    return true;
+  }
   if (!has_respite_ && !open && now_ns >= due + periods_ns(kRespitePeriods) / 2) {
     state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
     has_respite_ = true;
@@ -36,7 +41,8 @@ bool StepTiming::is_silent(bool open, std::int64_t now_ns) {
 }
 
 std::int64_t StepTiming::due_ns(bool open) const {
-  if (!realtime_ || state_due_ns_ == runtime::kNever) return runtime::kNever;
+  if (clock_ == runtime::Clock::lockstep || state_due_ns_ == runtime::kNever) return runtime::kNever;
+  if (clock_ == runtime::Clock::prescribed) return open ? runtime::kNever : state_due_ns_;
   return state_due_ns_ + (open ? periods_ns(kOpenPeriods) : 0);
 }
 

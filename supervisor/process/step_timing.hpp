@@ -1,6 +1,7 @@
 #pragma once
 /// When the supervisor steps in real time although inputs are missing. In lockstep, every step has all
-/// inputs.
+/// inputs. In a replay, the recording states the steps: the
+/// host polls the supervisor without a state, later than its last step.
 #include <cstdint>
 
 #include "crane/runtime/component.hpp"
@@ -9,7 +10,7 @@ namespace crane::supervisor {
 
 class StepTiming {
  public:
-  StepTiming(double period_s, bool realtime) : period_s_{period_s}, realtime_{realtime} {}
+  StepTiming(double period_s, runtime::Clock clock) : period_s_{period_s}, clock_{clock} {}
 
   /// The processes discover each other one after the other. The supervisor begins with the first tick that
   /// has all inputs, or 2 s after its first state. Without its command, the bridge keeps 0 V and closed
@@ -44,7 +45,7 @@ class StepTiming {
   }
 
   double period_s_;
-  bool realtime_;
+  runtime::Clock clock_;
   std::int64_t state_due_ns_ = runtime::kNever;
   bool begun_ = false;
   bool has_respite_ = false;  ///< true: the wait of this step has been extended

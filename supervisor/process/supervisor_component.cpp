@@ -37,6 +37,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       : JoinedComponent{context, kWaitShare, topics::state, topics::demand, topics::reference},
         limits_{limits_of(context.rig)},
         realtime_{context.clock == runtime::Clock::realtime},
+        timing_{limits_.period_s, context.clock},
         echo_{{limits_.axis[0].present, limits_.axis[1].present, limits_.axis[2].present}},
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
@@ -243,7 +244,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   Limits limits_;
   bool realtime_;
-  StepTiming timing_{limits_.period_s, realtime_};
+  StepTiming timing_;
   CommandEcho echo_;
   BridgeClock bridge_clock_{period_ns()};
   runtime::RequestInbox requests_;

@@ -94,9 +94,14 @@ TEST_F(ByTheRecorder, TheReplayEndsBeforeATickWithoutState) {
   const auto result = replayed(without(topics::state.description, 300));
   EXPECT_FALSE(result.first);
   EXPECT_EQ(result.equal_ticks, 300U);
-  EXPECT_EQ(
-      result.ends,
-      "tick 300: no crane/state: the bridge skipped the tick, or the recorder did not receive the sample");
+  EXPECT_EQ(result.ends, "tick 300: no crane/state: the recorder did not receive the sample");
+}
+
+TEST_F(ByTheRecorder, TheReplayEndsAfterTicksThatTheRecorderMissed) {
+  const auto result = replayed(without(
+      [](const recording::Message& message) { return message.sequence >= 300 && message.sequence < 306; }));
+  EXPECT_FALSE(result.first);
+  EXPECT_EQ(result.ends, "tick 306: the recorder did not receive the samples of the tick before");
 }
 
 TEST_F(ByTheRecorder, TheReplayEndsWhereAProcessIsRestarted) {
@@ -111,26 +116,33 @@ TEST_F(ByTheRecorder, TheReplayEndsWhereAProcessIsRestarted) {
   EXPECT_EQ(result.ends, "tick 250: crane/tracking has another start-up number: its process was restarted");
 }
 
-TEST_F(ByTheRecorder, ADifferenceAfterAMissingSampleIsThatOfALateProcess) {
-  for (const std::uint32_t missing : {279U, 270U}) {
-    const auto copy = directory_ / ("late_" + std::to_string(missing) + ".mcap");
-    copy_changed(file_, copy, [missing](const recording::Message& message, std::vector<std::uint8_t>& data) {
-      const auto& topic = message.channel->topic;
-      if (topic == topics::command.description.name && message.sequence == 280)
-        data[bus::kEncapsulation_bytes + sizeof(msg::Header)] ^= 1U;  // lowest bit of drive_v[0]
-      return topic != recording::kLossTopic &&
-             (topic != topics::demand.description.name || message.sequence != missing);
-    });
-    const auto result = replayed(copy);
-    EXPECT_EQ(result.equal_ticks, 280U);
-    EXPECT_EQ(result.first.has_value(), missing == 270)
-        << "the demand of tick 270 explains no later difference";
-    if (missing == 279) {
-      EXPECT_EQ(
-          result.ends,
-          "tick 280: its crane/command differs, and crane/demand of tick 279 is not in the recording: a "
-          "process was late or has ended");
-    }
+/// The status of the supervisor shows that the demand was published.
+TEST_F(ByTheRecorder, ASampleThatTheRecorderMissedExplainsNoDifference) {
+  const auto copy = directory_ / "missed.mcap";
+  copy_changed(file_, copy, [](const recording::Message& message, std::vector<std::uint8_t>& data) {
+    const auto& topic = message.channel->topic;
+    if (topic == topics::command.description.name && message.sequence == 280)
+      data[bus::kEncapsulation_bytes + sizeof(msg::Header)] ^= 1U;  // lowest bit of drive_v[0]
+    return topic != recording::kLossTopic &&
+           (topic != topics::demand.description.name || message.sequence != 279);
+  });
+  const auto result = replayed(copy);
+  EXPECT_EQ(result.equal_ticks, 280U);
+  EXPECT_EQ(result.not_recorded, 1U);
+  ASSERT_TRUE(result.first);
+  EXPECT_EQ(result.first->topic, "crane/command");
+}
+
+/// Later samples presuppose them.
+TEST_F(ByTheRecorder, SamplesOfOneProcessThatTheRecorderMissedAreInferred) {
+  for (const auto* topic : {&topics::reference.description, &topics::tracking.description,
+                            &topics::anti_swing.description, &topics::command.description}) {
+    const auto result = replayed(without([topic](const recording::Message& message) {
+      return message.channel->topic == topic->name && message.sequence > 290 && message.sequence < 310;
+    }));
+    EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+    EXPECT_EQ(result.equal_ticks, ticks_) << topic->name << ": " << result.ends;
+    EXPECT_EQ(result.not_recorded, 19U) << topic->name;
   }
 }
 

@@ -15,7 +15,7 @@ bool stops(const msg::Request& request) {
 }  // namespace
 
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
-    : schedules_{context.clock == Clock::lockstep},
+    : schedules_{context.clock != Clock::realtime},
       requests_{context.ports.input(topics::request)},
       replies_{context.ports.output(topics::reply)},
       kinds_{kinds} {}

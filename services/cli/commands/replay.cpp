@@ -44,6 +44,10 @@ nlohmann::ordered_json to_json(const replay::Result& found) {
   if (!found.ends.empty()) json["ends"] = found.ends;
   json["assumed_ticks"] = found.assumed_ticks;
   json["not_recorded_samples"] = found.not_recorded;
+  json["irregular_ticks"] = found.irregular_ticks;
+  json["skipped_ticks"] = found.skipped_ticks;
+  json["steps_without_state"] = found.steps_without_state;
+  json["decided_by_outputs"] = found.decided_by_outputs;
   json["derived_requests"] = found.derived_requests;
   json["problems"] = found.problems;
   return json;
@@ -70,6 +74,11 @@ void print_remarks(const replay::Result& found) {
         << " ticks are not in the recording: the replay assumes that the crane rested as in the next one\n";
   if (found.not_recorded > 0)
     std::cerr << found.not_recorded << " samples are not in the recording and were not compared\n";
+  if (found.irregular_ticks > 0)
+    std::cerr << found.irregular_ticks << " ticks with a late process were repeated as recorded; "
+              << found.steps_without_state << " steps of the supervisor without a state; "
+              << found.decided_by_outputs << " ticks in which the recorded outputs decided\n";
+  if (found.skipped_ticks > 0) std::cerr << "the bridge skipped " << found.skipped_ticks << " ticks\n";
   for (const auto& request : found.derived_requests)
     std::cerr << "not in the recording, derived from crane/reply and crane/supervisor: " << request << '\n';
 }

@@ -17,10 +17,11 @@ namespace crane::runtime {
 [[nodiscard]] inline JoinPolicy join_policy(const Context& context, double share_of_period,
                                             std::size_t depth = 8) {
   const auto period_ns = static_cast<std::int64_t>(context.rig.period_s * 1e9);
+  const auto bound_ns = static_cast<std::int64_t>(share_of_period * context.rig.period_s * 1e9);
   return {.in_order = context.clock == Clock::lockstep,
-          .bound_ns = static_cast<std::int64_t>(share_of_period * context.rig.period_s * 1e9),
+          .bound_ns = context.clock == Clock::prescribed ? 0 : bound_ns,
           .depth = depth,
-          .period_ns = context.clock == Clock::lockstep ? 0 : period_ns};
+          .period_ns = context.clock == Clock::realtime ? period_ns : 0};
 }
 
 template <class... Inputs>
