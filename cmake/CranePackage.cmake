@@ -5,7 +5,7 @@ set(programs crane_cli crane_dashboard_process crane_plant_process crane_hardwar
   crane_trajectory_planner_process crane_tracking_process crane_anti_swing_process crane_friction_compensation_process
   crane_supervisor_process crane_twin_process crane_loop_process)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY deploy/rigs deploy/scenarios deploy/sweeps deploy/mappings DESTINATION ${CMAKE_INSTALL_DATADIR}/crane)
+install(DIRECTORY deploy/rigs deploy/scenarios deploy/sweeps deploy/mappings deploy/foxglove DESTINATION ${CMAKE_INSTALL_DATADIR}/crane)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES deploy/systemd/crane.service deploy/systemd/crane-dashboard.service DESTINATION lib/systemd/system)
 

@@ -79,7 +79,7 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   last_state_.reset();
   missing_demand_ = 0;
   derived_.clear();
-  next_jog_ = 0;
+  next_jog_ = lost_jogs_of_ = 0;
   assumed_ = 0;
   has_earlier_ = false;
   bool begins = true;
@@ -172,6 +172,7 @@ void ArrivalOrder::complete(Gathered& gathered) {
   const bool last = gathered.more_statuses.empty();
   add_requests(tick.number, *status, {kBegin_ns, last ? kEnd_ns : decided_ns}, tick.inputs);
   add_jogs(tick, *status, decided_ns);
+  add_lost_jog(tick, *status);
   before_ = status;
   add_steps_without_state(gathered);
   missing_demand_ = before_->missing_demand_count;
@@ -235,8 +236,7 @@ void ArrivalOrder::add_requests(std::uint64_t tick, const msg::SupervisorStatus&
     } else if (reply.accepted && before_) {
       auto request = request_behind(reply, *before_, status);
       if (!request) continue;
-      const auto jog = std::ranges::find_if(
-          jogs_, [&](const Jog& one) { return one.sample.request_id == reply.request_id; });
+      const auto jog = first_jog_of(reply.request_id);
       if (jog != jogs_.end()) request->header.epoch = jog->sample.header.epoch;
       inputs.push_back({&topics::request.description, published(topics::request, *request)});
       derived_.push_back("tick " + std::to_string(tick) + ": " + in_words(*request));
@@ -261,6 +261,24 @@ void ArrivalOrder::add_jogs(RecordedTick& tick, const msg::SupervisorStatus& sta
   if (next_jog_ > 0 && shows(status, jogs_[next_jog_ - 1].sample)) return;
   for (auto end = next_jog_ + 1; end <= possible; ++end)
     if (shows(status, jogs_[end - 1].sample)) return deliver_until(end);
+}
+
+std::vector<ArrivalOrder::Jog>::const_iterator ArrivalOrder::first_jog_of(std::uint64_t request_id) const {
+  return std::ranges::find_if(jogs_, [&](const Jog& one) { return one.sample.request_id == request_id; });
+}
+
+/// The recorder discovers the writer of an operator later than the supervisor does. Until then, the
+/// supervisor receives a sample in every tick in which its status shows a deflection.
+void ArrivalOrder::add_lost_jog(RecordedTick& tick, const msg::SupervisorStatus& status) {
+  auto lost = jog_behind(status);
+  if (!lost) return;
+  const auto first = first_jog_of(lost->request_id);
+  if (first - jogs_.begin() < static_cast<std::ptrdiff_t>(next_jog_)) return;  // a sample has been delivered
+  if (first != jogs_.end()) lost->header.epoch = first->sample.header.epoch;
+  tick.inputs.push_back({&topics::jog.description, published(topics::jog, *lost)});
+  if (std::exchange(lost_jogs_of_, lost->request_id) != lost->request_id)
+    derived_.push_back("tick " + std::to_string(tick.number) + ": first samples of crane/jog of client '" +
+                       lost->client + "'");
 }
 
 }  // namespace crane::replay

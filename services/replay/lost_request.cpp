@@ -57,6 +57,21 @@ std::optional<msg::Request> request_behind(const msg::Reply& reply, const msg::S
   return request;
 }
 
+std::optional<msg::Jog> jog_behind(const msg::SupervisorStatus& status) {
+  const bool deflected = std::ranges::any_of(status.jog_deflection, [](double share) { return share != 0; });
+  if (!deflected || status.mode == crane_MODE_MAINTENANCE) return std::nullopt;
+  msg::Jog jog{};
+  jog.header.tick = status.header.tick;
+  jog.header.sample_time_ns = status.header.sample_time_ns;
+  jog.header.source = crane_SOURCE_OPERATOR;
+  jog.header.epoch = 1;
+  jog.request_id = status.move.request_id;
+  std::ranges::copy(status.move.client, jog.client);
+  jog.engaged = true;
+  std::ranges::copy(status.jog_deflection, jog.deflection);
+  return jog;
+}
+
 std::string in_words(const msg::Request& request) {
   constexpr std::array kNames{"none",    "reset", "arm",      "disarm", "move", "stop", "e-stop",
                               "advance", "kick",  "shutdown", "follow", "home", "jog",  "mode"};

@@ -1,7 +1,7 @@
 #pragma once
-/// Requests that a recording lacks. A recorder does not receive the request of a program that ends before the
-/// recorder has discovered it, for example of `crane stop`. The reply and the statuses of the supervisor
-/// before and after the decision show what the request was.
+/// Requests and samples of the stick that a recording lacks. A recorder does not receive the request of a
+/// program that ends before the recorder has discovered it, for example of `crane stop`. The reply and the
+/// statuses of the supervisor before and after the decision show what the request was.
 #include <optional>
 #include <string>
 
@@ -16,6 +16,11 @@ namespace crane::replay {
 [[nodiscard]] std::optional<msg::Request> request_behind(const msg::Reply& reply,
                                                          const msg::SupervisorStatus& before,
                                                          const msg::SupervisorStatus& after);
+
+/// The sample of crane/jog that a recording lacks for the same reason, at the beginning of a session.
+/// @return the sample with the deflection of the status; nothing when the stick has none. In maintenance, the
+/// status does not show the deflection of the sample
+[[nodiscard]] std::optional<msg::Jog> jog_behind(const msg::SupervisorStatus& status);
 
 /// "move of client 'crane 4711'"
 [[nodiscard]] std::string in_words(const msg::Request& request);

@@ -103,7 +103,10 @@ bool ProcessReplay::deliver(const Received& input, std::uint64_t tick) {
     return true;
   }
   const auto jog = decoded(topics::jog, input.cdr);
-  if (!jog || !writers_.publish_input(input)) return false;
+  if (!jog) return false;
+  const auto& sender = writers_.operator_of(jog->header, jog->client);
+  until([&] { return sender.jogs.matched() > 0; }, "the supervisor to receive crane/jog");
+  if (!writers_.publish_input(input)) return false;
   // A request that the supervisor refuses: its confirmation shows that the sample before it has arrived.
   msg::Request probe{};
   runtime::assign(probe.client, jog->client);

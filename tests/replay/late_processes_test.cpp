@@ -28,7 +28,8 @@ class LateStack {
         channels_{recording::add_topic_channels(writer_)},
         stack_{specs(), rig_, controller_},
         bus_{runtime::memory_options(stack_.network(), "operator", crane_SOURCE_OPERATOR)},
-        operator_{bus_, "operator", 1} {
+        operator_{bus_, "operator", 1},
+        jogs_{bus_.publisher(topics::jog)} {
     writer_.metadata("crane", {{"crane", "late"}});
     const auto text = experiments::started_rig_text(rig_);
     writer_.attachment("rig.toml", "application/toml", 0,
@@ -43,7 +44,20 @@ class LateStack {
   void suspend(crane_Source source, double seconds) {
     stack_.suspend(source, stack_.now_ns() + std::llround(seconds * 1e9));
   }
-  void ask(const stack::OperatorRequest& wanted) { operator_.send(wanted); }
+  void ask(const stack::OperatorRequest& wanted) { last_id_ = operator_.send(wanted); }
+  /// Deflects the stick of the session that was requested last, for one tick.
+  void deflect(double slew) {
+    msg::Jog jog{};
+    jog.header.tick = newest_tick_;
+    jog.request_id = last_id_;
+    runtime::assign(jog.client, "operator");
+    jog.engaged = true;
+    jog.deflection[1] = slew;
+    ASSERT_TRUE(jogs_.publish(jog));
+    run(0.01);
+  }
+  /// From now on, the recorder misses what operators publish.
+  void miss_operators(bool misses) { misses_operators_ = misses; }
   void close() { writer_.close(); }
 
  private:
@@ -56,6 +70,10 @@ class LateStack {
         std::ranges::find(topics::kAll, topic.name, &topics::Description::name) - topics::kAll.begin());
     now_ns_ = std::max(now_ns_ + 1, stack_.now_ns());
     const auto tick = static_cast<const msg::Header*>(sample)->tick;
+    if (topic.name == topics::state.description.name) newest_tick_ = tick;
+    const bool by_operator =
+        topic.name == topics::request.description.name || topic.name == topics::jog.description.name;
+    if (by_operator && misses_operators_) return;
     writer_.message(channels_[index], static_cast<std::uint32_t>(tick), now_ns_, now_ns_,
                     replay::encoded(topic, sample));
   }
@@ -68,6 +86,9 @@ class LateStack {
   campaign::VirtualStack stack_;
   bus::Bus bus_;
   stack::OperatorClient operator_;
+  bus::Publisher<msg::Jog> jogs_;
+  std::uint64_t newest_tick_ = 0, last_id_ = 0;
+  bool misses_operators_ = false;
 };
 
 struct LateRun {
@@ -121,6 +142,33 @@ TEST_P(LateProcesses, AreReplayedBitForBit) {
   EXPECT_GT(result.skipped_ticks, 0U);
   EXPECT_GT(result.steps_without_state, 0U);
   EXPECT_EQ(result.not_recorded, 0U);
+}
+
+/// The recorder discovers the operator after the first samples of the stick.
+TEST(LostJogs, FollowFromTheStatuses) {
+  const recording::TemporaryDirectory directory;
+  const auto file = directory / "jog.mcap";
+  LateStack crane{file, "virginia_tech_tower", "gain_scheduling_partial"};
+  crane.miss_operators(true);
+  crane.run(1.3);
+  crane.ask({.kind = crane_REQUEST_RESET});
+  crane.run(1.1);
+  crane.ask({.kind = crane_REQUEST_ARM});
+  crane.run(1);
+  crane.ask({.kind = crane_REQUEST_JOG, .selected = {false, true, false}});
+  crane.run(0.02);
+  for (int i = 0; i < 100; ++i) {
+    crane.miss_operators(i < 30);
+    crane.deflect(i < 20 ? 0.2 : 0.3);
+  }
+  crane.run(2);
+  crane.close();
+  const auto result = replay::replay(file, replay::loop_components());
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.ends, "");
+  EXPECT_GT(result.equal_ticks, 600U);
+  ASSERT_EQ(result.derived_requests.size(), 4U);
+  EXPECT_NE(result.derived_requests.back().find("crane/jog of client 'operator'"), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(Replay, LateProcesses,

@@ -92,6 +92,21 @@ TEST_F(LostRequest, WithoutAnEffectIsUnknown) {
   EXPECT_EQ(kind(), crane_REQUEST_NONE);
 }
 
+TEST_F(LostRequest, OfAStickIsInTheStatus) {
+  EXPECT_FALSE(jog_behind(after_));
+  after_.jog_deflection[1] = -0.3;
+  after_.move.request_id = 17;
+  after_.header.tick = 40;
+  const auto jog = jog_behind(after_);
+  ASSERT_TRUE(jog);
+  EXPECT_EQ(jog->request_id, 17U);
+  EXPECT_EQ(jog->header.tick, 40U);
+  EXPECT_TRUE(jog->engaged);
+  EXPECT_EQ(jog->deflection[1], -0.3);
+  after_.mode = crane_MODE_MAINTENANCE;
+  EXPECT_FALSE(jog_behind(after_)) << "the supervisor has reduced the deflection";
+}
+
 TEST_F(LostRequest, IsNamedWithItsClient) {
   states(crane_STATE_READY, crane_STATE_ARMING);
   EXPECT_EQ(in_words(*request_behind(reply_, before_, after_)), "arm of client 'crane 4711'");
