@@ -1,9 +1,9 @@
 #pragma once
 /// Detects another supervisor of the same crane, at the start and later. Pure; the time is an argument.
 ///
-/// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). Of two
-/// supervisors that have started together, one ends (yields()): the one with the larger start-up number, or
-/// the one that is new beside one that is established (in use). At most one of two ends: only a new
+/// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). A new
+/// supervisor ends (yields()) beside one that is established (in use). If both are new, the one with the
+/// larger start-up number ends. At most one of two ends: only a new
 /// supervisor ends, an established one never becomes new again, and of two start-up numbers only one is the
 /// larger one. A sample of crane/node alone ends no supervisor, because every process may write this topic.
 /// crane/supervisor has one writer, and keys authenticate this writer.

@@ -13,7 +13,7 @@ class StepTiming {
   StepTiming(double period_s, runtime::Clock clock) : period_s_{period_s}, clock_{clock} {}
 
   /// The processes discover each other one after the other. The supervisor begins with the first tick that
-  /// has all inputs, or 2 s after its first state. Without its command, the bridge keeps 0 V and closed
+  /// has all inputs, or 2 s after its first state. Until the first command, the bridge keeps 0 V and closed
   /// brakes.
   /// @param complete  the tick has all inputs
   /// @return true when the supervisor begins with this tick, or has begun

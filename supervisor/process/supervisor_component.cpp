@@ -13,13 +13,13 @@
 #include "crane/runtime/request_inbox.hpp"
 #include "crane/supervisor/supervisor.hpp"
 #include "process/announcements.hpp"
+#include "process/board_self_test.hpp"
 #include "process/bridge_clock.hpp"
 #include "process/command_echo.hpp"
 #include "process/jog_reader.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
 #include "process/sole_reader.hpp"
-#include "process/start_up_test.hpp"
 #include "process/step_timing.hpp"
 
 namespace crane::supervisor {
@@ -252,7 +252,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   SoleReader sole_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
-  StartUpTest self_test_;
+  BoardSelfTest self_test_;
   TickMemory memory_;
   msg::Header last_header_{};
   std::int64_t now_ns_ = 0;

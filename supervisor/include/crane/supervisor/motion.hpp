@@ -19,7 +19,7 @@ struct MotionMemory {
 void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis& position,
              MotionMemory& memory) noexcept;
 
-/// True when every present axis has moved less than standstill_speed * standstill_time_s for
+/// True when every axis that the crane has moved less than standstill_speed * standstill_time_s for
 /// standstill_time_s.
 [[nodiscard]] bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) noexcept;
 
@@ -43,7 +43,7 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
 [[nodiscard]] bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
                                 const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;
 
-/// Time since the watchdog permission is withheld.
+/// Start of the time without watchdog permission.
 struct RelayMemory {
   bool withheld = false;  ///< true: `since_s` is valid
   double since_s = 0;     ///< time of the first tick without permission, clock of the supervisor

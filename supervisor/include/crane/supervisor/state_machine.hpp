@@ -5,12 +5,13 @@
 
 namespace crane::supervisor {
 
+/// Self-test of the board at the start (process/board_self_test.hpp).
 enum class SelfTest : std::uint8_t {
-  not_started,
-  running,
-  passed,
-  failed
-};  // self-test of the board: start_up_test.hpp
+  not_started,  ///< until the first step of the supervisor
+  running,      ///< until the board has been safe for several ticks in a row, or the longest time has passed
+  passed,       ///< until the bridge restarts
+  failed        ///< until the bridge restarts; leads to FAULT
+};
 
 enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home };
 inline constexpr std::size_t kRequests = 7;

@@ -14,9 +14,9 @@ struct Explained {
   std::string reason;  ///< reason and remedy; empty when accepted
 };
 
-/// Assumes that durations have passed which the topics do not show (causes inactive for a second, inputs
-/// complete for a second). Doubt about positions after a restart of the bridge is not shown. @param state
-/// null: no state
+/// The topics do not show how long the causes have been clear and the inputs have been fresh: the answers
+/// assume the required second. They do not consider whether a position is doubtful after a restart of the
+/// bridge. @param state  null: no state
 [[nodiscard]] std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::State* state);
 
 }  // namespace crane::supervisor

@@ -6,7 +6,7 @@
 
 namespace crane::supervisor {
 
-class StartUpTest {
+class BoardSelfTest {
  public:
   /// @param state  state of this tick; null: none arrived
   SelfTest step(const msg::State* state);

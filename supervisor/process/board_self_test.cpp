@@ -1,20 +1,20 @@
-#include "process/start_up_test.hpp"
+#include "process/board_self_test.hpp"
 
 namespace crane::supervisor {
 namespace {
 
-constexpr int kQuietTicks = 10;  // in a row
-constexpr int kLongestTicks = 200;
+constexpr int kQuietTicks = 10;     // in a row: the test has passed
+constexpr int kLongestTicks = 200;  // with a state: the test has failed
 
 bool is_quiet(const msg::State& state) {
   for (std::size_t i = 0; i < kAxes; ++i)
     if (state.applied_v[i] != 0 || !state.brake_closed[i]) return false;
-  return state.watchdog_dropped;  // without permission the relay must have removed the brake supply
+  return state.watchdog_dropped;  // without permission the relay must be open
 }
 
 }  // namespace
 
-SelfTest StartUpTest::step(const msg::State* state) {
+SelfTest BoardSelfTest::step(const msg::State* state) {
   if (result_ != SelfTest::running && result_ != SelfTest::not_started) return result_;
   result_ = SelfTest::running;
   if (state == nullptr) return result_;
