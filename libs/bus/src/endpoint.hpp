@@ -35,7 +35,7 @@ struct UntypedPublisher::State {
   std::unique_ptr<detail::Writer> writer;
   crane_Source source;
   std::uint32_t epoch, messages_version;
-  std::shared_ptr<Ledger> ledger;  ///< null when the topic is no loop topic, or without a ledger
+  std::shared_ptr<Ledger> ledger;  ///< null: not a loop topic, or no ledger
 };
 
 struct UntypedSubscriber::State {

@@ -11,7 +11,7 @@ class TopicType final : public eprosima::fastdds::dds::TopicDataType {
   explicit TopicType(const dds_topic_descriptor_t& descriptor);
 
   bool serialize(void* sample, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  /// A payload that is no sample of this type is decoded to a sample with a wrong CRC. The subscriber then
+  /// A payload that is not a sample of this type is decoded to a sample with a wrong CRC. The subscriber then
   /// rejects and counts it. Otherwise Fast DDS would drop the payload without a report.
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* sample) override;
   std::function<std::uint32_t()> getSerializedSizeProvider(void* sample) override;

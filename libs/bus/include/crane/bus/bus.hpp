@@ -1,6 +1,6 @@
 #pragma once
 /// Publishers and subscribers over Cyclone DDS, Fast DDS or an in-process network. The sample type of a topic
-/// is the C struct that idlc generates. Vendor headers are included in src/cyclone and src/fastdds only.
+/// is the C struct that idlc generates. Only src/cyclone, src/fastdds and cdr*.cpp include vendor headers.
 ///
 ///   bus::Bus bus{options};
 ///   auto states = bus.subscriber(topics::state);

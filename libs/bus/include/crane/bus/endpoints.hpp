@@ -80,7 +80,7 @@ class CdrPublisher : public UntypedPublisher {
   CdrPublisher(const topics::Description& topic, UntypedPublisher&& untyped);
   /// Sets source, epoch and CRC of the sample and sends it. @param cdr  little endian, with the 4-byte
   /// encapsulation header
-  /// @return false when `cdr` is no sample of the topic, or when the middleware did not send it
+  /// @return false when `cdr` is not a sample of the topic, or when the middleware did not send it
   [[nodiscard]] bool publish(std::span<const std::uint8_t> cdr);
   [[nodiscard]] const topics::Description& topic() const { return *topic_; }
 

@@ -24,7 +24,7 @@ class Ledger {
   /// A new, empty ledger with a random key. @throws Error
   [[nodiscard]] static std::shared_ptr<Ledger> create();
   /// The ledger of other processes. @param path  for example "/proc/self/fd/7": an inherited descriptor
-  /// @throws Error when the file is no ledger, belongs to another user, or is accessible to other users
+  /// @throws Error when the file is not a ledger, belongs to another user, or is accessible to other users
   [[nodiscard]] static std::shared_ptr<Ledger> open(const std::filesystem::path& path);
 
   Ledger(const Ledger&) = delete;
