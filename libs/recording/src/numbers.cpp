@@ -18,7 +18,7 @@ double float32(std::uint64_t raw) {
 }
 double float64(std::uint64_t raw) { return std::bit_cast<double>(raw); }
 
-/// @return conversion of the bytes of a value to a number; null for a type that is no number
+/// @return conversion of the bytes of a value to a number; null for a type that is not a number
 double (*conversion_of(Kind kind))(std::uint64_t) {
   switch (kind) {
     case Kind::boolean:

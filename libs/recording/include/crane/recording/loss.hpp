@@ -16,9 +16,9 @@ enum class LossCause : std::uint8_t {
   dds_lost,      ///< DDS reported the samples as lost (SAMPLE_LOST)
   wrong_crc,     ///< the recorder rejected the samples: their CRC-32C was wrong
   file_removed,  ///< the file that contained the samples was deleted while the recorder wrote it
-  tick_gap       ///< ticks without a sample between two samples of a writer, without another cause: the
-            ///< recorder stood still for more samples than its reader keeps, or the loop was late and skipped
-            ///< the ticks
+  tick_gap  ///< ticks without a sample between two samples of a writer; no other cause explains them: the
+            ///< recorder paused until its reader overwrote samples, or the loop was late and skipped the
+            ///< ticks
 };
 [[nodiscard]] std::string_view to_string(LossCause cause);
 
@@ -26,7 +26,7 @@ struct Loss {
   std::string topic;
   LossCause cause = LossCause::queue_full;
   std::uint64_t samples = 0;
-  std::int64_t from_ns = 0, until_ns = 0;  ///< log times of the first and the last of them
+  std::int64_t from_ns = 0, until_ns = 0;  ///< log times at which the recorder noticed the first and the last
 };
 
 inline constexpr std::string_view kLossTopic = "recorder/loss";

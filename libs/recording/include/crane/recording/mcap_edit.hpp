@@ -1,7 +1,7 @@
 #pragma once
-/// Cuts a part out of a recording, or merges several recordings into one. The new recording contains the
-/// messages without change, and the channels, metadata and attachments. The new file appears, or replaces an
-/// existing file, only when it is complete.
+/// Copies a time range of a recording to a new recording, or merges several recordings into one. The new
+/// recording contains the messages without change, and the channels, metadata and attachments. The new file
+/// appears, or replaces an existing file, only when it is complete.
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -10,7 +10,8 @@
 
 namespace crane::recording {
 
-/// The recordings must not be merged, or the part contains no message. what() has one line for each problem.
+/// The recordings cannot be merged, or the time range contains no message. what() has one line for each
+/// problem.
 class EditError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -31,12 +32,12 @@ struct TimeRange {
 /// @throws ReadError, WriteError; EditError when no message is within the range
 CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const std::filesystem::path& out);
 
-/// Merges the messages in the order of log time. Of messages with equal times, those of the recording named
-/// first come first. Equal metadata and attachments are stored once. Adds the metadata record "merge" with
-/// the names of the files.
+/// Merges the messages in the order of log time. Messages with equal times keep the order in which the
+/// recordings are named. Equal metadata and attachments are stored once. Adds the metadata record "merge"
+/// with the names of the files.
 /// @return number of copied messages, and the damage of all files
 /// @throws ReadError, WriteError; EditError when two recordings have different schemas of one type, different
-///   types of one topic, or different attachments of one name or of TOML (rig files)
+///   types of one topic, different attachments of one name, or different TOML attachments (rig files)
 CheckReport merge(std::span<const std::filesystem::path> files, const std::filesystem::path& out);
 
 }  // namespace crane::recording
