@@ -8,7 +8,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Unit suffixes of keys. Other text after the last underscore is no unit.
+/// Unit suffixes of keys. Other text after the last underscore is not a unit.
 constexpr std::array<std::string_view, 50> kUnits{
     "m",    "mm",   "cm",   "um",     "km",     "rad",      "mrad",   "deg",   "s",    "ms",
     "us",   "ns",   "min",  "kg",     "g",      "v",        "mv",     "n",     "nm",   "hz",

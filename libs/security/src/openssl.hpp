@@ -32,7 +32,7 @@ using Certificate = std::unique_ptr<X509, Deleter<X509_free>>;
 
 [[nodiscard]] std::string pem_of(X509& certificate);
 [[nodiscard]] std::string pem_of(EVP_PKEY& key);
-/// @return null when the text is no certificate
+/// @return null when the text is not a certificate
 [[nodiscard]] Certificate certificate_from(const std::string& pem);
 [[nodiscard]] Key key_from(const std::string& pem);
 

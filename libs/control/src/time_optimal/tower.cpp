@@ -67,7 +67,8 @@ Eigen::Matrix4d matrix_of(const motion::Mass<double>& e) {
   return m;
 }
 
-/// State number of each input of Dual. The equations do not depend on the slew angle, which is no input.
+/// State number of each input of Dual. The slew angle is not an input, because the equations do not
+/// depend on it.
 constexpr std::array<int, Dual::kInputs> kStateOfInput{0, 1, 3, 4, 5, 6, 7};
 
 /// Derivatives of M(q) a + h with respect to the inputs of Dual, at constant a.

@@ -37,7 +37,8 @@ class Connector {
 /// State of the card. Plain data, so that it can be in shared memory and survive the process of the driver.
 struct CardState {
   struct Counter {
-    std::uint32_t origin_counts = 0;  ///< while counting: value = pulses - origin; otherwise the value
+    std::uint32_t origin_counts = 0;  ///< inputs enabled: value of the counter = pulses - origin_counts;
+                                      ///< inputs disabled: value of the counter
     std::array<std::uint8_t, 3> latch{}, preset{};
     std::uint8_t pointer = 0;
     std::uint8_t input_control = 0, quadrature = 0;

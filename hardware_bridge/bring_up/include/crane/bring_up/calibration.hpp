@@ -38,7 +38,7 @@ struct Calibration {
 
 /// @return text of a rig file for the path `file`, which extends the file of `rig` by the calibrated values
 /// @throws configuration::ConfigurationError when the result has problems, or when `file` is the calibration
-/// of another rig, is no rig file, or is the rig file itself
+/// of another rig, is not a rig file, or is the rig file itself
 [[nodiscard]] std::string calibration_file(const configuration::Rig& rig, const Calibration& calibration,
                                            const std::filesystem::path& file);
 /// Checks before a calibration that `file` may be written for `rig`.

@@ -16,7 +16,7 @@ struct SwingFit {
   [[nodiscard]] double at(double time_s, double frequency_radps) const;
 };
 
-/// sqrt(g / L) with the cable length at the start of the rig.
+/// sqrt(g / L) with the cable length in [start] of the rig file.
 [[nodiscard]] double swing_frequency_radps(const configuration::Rig& rig);
 
 /// Least-squares fit. @pre the record has at least half a period

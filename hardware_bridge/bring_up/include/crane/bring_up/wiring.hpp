@@ -2,9 +2,9 @@
 /// Finds wiring faults from the reaction of the rig to small pushes of each drive. Pure functions.
 ///
 /// Only the axis with the open brake can move. Therefore the counter that changes belongs to the encoder of
-/// this axis. The load shows the true direction, because it lags behind its suspension point. Of drive, axis
-/// encoder and swing encoder, the one that contradicts the other two has the wrong sign. If several
-/// explanations fit, the one with the fewest faults is reported.
+/// this axis. The load shows the true direction, because it lags behind its suspension point. If one of
+/// drive, axis encoder and swing encoder contradicts the other two, it has the wrong sign. If several
+/// explanations fit, the result is the one with the fewest faults.
 #include <array>
 #include <string>
 #include <string_view>

@@ -68,7 +68,7 @@ struct GeneratedRules {
   FuzzyDegrees degrees{};
 };
 
-/// Every sample proposes up to four rules. Of conflicting rules, the rule with the largest degree is kept
+/// Every sample proposes up to four rules. If rules conflict, the rule with the largest degree is kept
 /// (Tables 3.6-3.8).
 [[nodiscard]] GeneratedRules rules_from(const std::vector<FuzzySample>& samples,
                                         const FuzzyPoints& points = {});

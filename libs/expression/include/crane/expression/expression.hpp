@@ -123,7 +123,7 @@ class Expression {
   std::size_t risings_ = 0;
 };
 
-/// @return an expression of the kind `condition`. @throws Error also when `text` is no condition
+/// @return an expression of the kind `condition`. @throws Error also when `text` is not a condition
 [[nodiscard]] Expression condition(std::string_view text, const Vocabulary& vocabulary);
 
 }  // namespace crane::expression
