@@ -21,7 +21,7 @@ inline constexpr Rule kFamilywiseLevel{
     "probability that the best of all candidates is accepted without an effect",
     "level of the test, Bonferroni"};
 inline constexpr Rule kSignificant{"significant", 0.01, "1",
-                                   "p-value of a score below which it is significant", "level of the test"};
+                                   "p value of a score below which it is significant", "level of the test"};
 inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
                                   "minimum reduction of the error of a column by a first effect",
                                   "read off examples"};

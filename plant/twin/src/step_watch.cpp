@@ -6,11 +6,10 @@
 namespace crane::twin {
 namespace {
 
-constexpr double kMargin = 3;  // smallest step / largest in-control change
-// Smallest share of the residual's energy that the shape of a step explains.
-constexpr double kExplained = 0.9;
+constexpr double kMargin = 3;       // smallest step / largest change while learning
+constexpr double kExplained = 0.9;  // smallest share of the residual's energy that the shape explains
 constexpr double kBetter = 0.5;  // largest unexplained energy / unexplained energy with the shape of a force
-constexpr std::size_t kApart_ticks = 5;
+constexpr std::size_t kApart_ticks = 5;  // distance of two residuals: detects a step that takes several ticks
 
 }  // namespace
 

@@ -45,7 +45,8 @@ double period_near(const std::vector<double>& steps, double guess_s) {
   return regular > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
 }
 
-/// Grid row of each row. Of several candidates the row with the most measured values wins, then the nearest.
+/// Grid row of each row. If several rows belong to one grid row, the row with the most measured values gets
+/// it; among equal ones, the nearest.
 class GridAssignment {
  public:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

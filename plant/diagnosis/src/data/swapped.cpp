@@ -13,8 +13,8 @@ namespace {
 /// 1e-6 that 4 s of independent motion, smoothed over 0.1 s, exceed the first value.
 constexpr double kClearCorrelation = 0.8, kNoCorrelation = 0.4;
 constexpr double kShortestRun_s = 4, kCorrelationSmoothing_s = 0.05;
-/// Of the tangential swing: half width of the smoothing, in periods of the load, and number of smoothed
-/// values that do not overlap.
+/// For the tangential swing: half width of the smoothing, in periods of the load; fewest smoothed values that
+/// do not overlap.
 constexpr double kTangentialSmoothing_periods = 0.05, kFewestIndependent = 25;
 
 Motion smoothed(const Run& run, Output output, double half_width_s) {

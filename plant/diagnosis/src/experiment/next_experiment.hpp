@@ -13,7 +13,8 @@ namespace crane::diagnosis {
 /// Disturbance of each output, as learnt from the data.
 using Disturbances = std::array<Disturbance, kOutputs>;
 
-/// Of the replays. An output without a measurement has noise of 1e6 m or rad: it does not count.
+/// Disturbances of the outputs in the replays. An output without a measurement gets a noise of 1e6 m or rad,
+/// so that it has no weight.
 [[nodiscard]] Disturbances disturbances_of(const Study& study);
 
 /// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): selects the motion of the menu for

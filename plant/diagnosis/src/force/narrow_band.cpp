@@ -44,7 +44,7 @@ Waves waves_at(const Pieces& pieces, double hz) {
   return waves;
 }
 
-/// Of the ratio of two mean gains of `amplitudes` amplitudes each: tail of the F distribution.
+/// p value of the ratio of two mean gains of `amplitudes` amplitudes each: tail of the F distribution.
 double p_value_of_ratio(double ratio, double amplitudes) {
   return boost::math::ibeta(amplitudes / 2, amplitudes / 2, 1 / (1 + ratio));
 }

@@ -16,8 +16,8 @@ struct Unexplained {
   Output output = kTrolleyPosition;
   double gain = 0;      ///< decrease of the loss, cross-validated
   double fraction = 0;  ///< of the pieces' loss
-  /// Of a pattern of a drive over its variable: rms acceleration of the drive that it stands for, m/s2 or
-  /// rad/s2. Infinite for other patterns.
+  /// Pattern of a drive over a variable: rms acceleration of the drive by the pattern, m/s2 or rad/s2. Other
+  /// patterns: infinite.
   double acceleration = std::numeric_limits<double>::infinity();
   double hz = 0;  ///< of a line; 0 for other patterns
 };

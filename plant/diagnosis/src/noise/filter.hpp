@@ -32,7 +32,7 @@ class PredictionCovariance {
   void advance(std::size_t row);
 
  private:
-  /// Of x, x', a.
+  /// Symmetric matrix over x, x' (v) and a.
   struct Symmetric {
     double xx = 0, xv = 0, xa = 0, vv = 0, va = 0, aa = 0;
   };

@@ -8,9 +8,9 @@ namespace crane::diagnosis {
 inline constexpr double kStandstillSpeed = 0.01;
 
 /// m/s or rad/s: largest smoothing_speed of dry friction. Smoothed friction lets a pushed axis
-/// creep where dry friction holds it: with 0.95 of the friction, 1.8 times this speed, which is 0.2 mm in a
-/// window of 2 s; the 0.0005 m/s of simulations are 1.8 mm. A smaller value holds harder than friction with
-/// elastic contacts (LuGre) does.
+/// creep where dry friction would hold it. A push of 0.95 of the friction gives 1.8 times this speed: 0.2 mm
+/// in a window of 2 s. The smoothing_speed of simulations, 0.0005 m/s, would give 1.8 mm. With a smaller
+/// value, the axis would creep less than one with elastic contacts (LuGre).
 inline constexpr double kHoldingSpeed = 5e-5;
 
 /// The crane with dry friction that holds a resting axis: each smoothing_speed is at most kHoldingSpeed.

@@ -41,22 +41,22 @@ namespace crane::diagnosis {
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
-/// p-value of "the mean difference of the blocks is 0", one-sided (`now` < `before`), from the scatter of the
+/// p value of "the mean difference of the blocks is 0", one-sided (`now` < `before`), from the scatter of the
 /// blocks. Large differences are clipped, so that no block dominates.
 [[nodiscard]] double block_test_p_value(const Blocks& now, const Blocks& before);
 
-/// p-value of the likelihood-ratio test of "the additional values of `fitted` have no effect". Twice the log
+/// p value of the likelihood-ratio test of "the additional values of `fitted` have no effect". Twice the log
 /// likelihood ratio is chi-square distributed (Wilks, Ann. Math. Statist. 9 (1938) 60), for a composite
 /// likelihood after division by the dispersion of its scores (Varin, Reid, Firth, Statist. Sinica 21 (2011)
 /// 5, section 2.3). @param held_out_nats  gain of log likelihood of the held-out data, added to that of
 /// training
 [[nodiscard]] double likelihood_ratio_p_value(const Fitted& fitted, const Fitted& before,
                                               double held_out_nats = 0);
-/// p-value of a loss of held-out likelihood when the additional values of `fitted` have no effect. With as
+/// p value of a loss of held-out likelihood when the additional values of `fitted` have no effect. With as
 /// many training as held-out data, the loss is half a chi-square with one degree of freedom for each value.
 /// @param held_out_nats  gain of log likelihood of the held-out data; < 0: loss
 [[nodiscard]] double held_out_loss_p_value(const Fitted& fitted, const Fitted& before, double held_out_nats);
-/// p-value of the Wald test (Trans. Amer. Math. Soc. 54 (1943) 426) of "the amount of the least certain
+/// p value of the Wald test (Trans. Amer. Math. Soc. 54 (1943) 426) of "the amount of the least certain
 /// effect is 0": two-sided tail of the normal distribution at amount / standard deviation. For an effect with
 /// two amounts, the more certain amount counts. In [0, 1]; 0 without effects.
 /// @param fitted with std_dev from with_intervals()

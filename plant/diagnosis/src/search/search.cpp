@@ -246,8 +246,9 @@ class Search {
     return find(found_.all, effects) != nullptr || find(tried_, effects) != nullptr;
   }
 
-  /// Of hypotheses with the same number of effects, or with no more values, the likelier one is better. A
-  /// larger hypothesis must be accepted against the best one.
+  /// Replaces the best hypothesis by `fitted`. If `fitted` is no larger (same number of effects, or no more
+  /// values), it must be likelier, and accepted against the base model. If it is larger, it must be accepted
+  /// against the best hypothesis. @return true when it is replaced
   bool accept(const Fitted& fitted) {
     const Fitted& best = found_.best;
     const bool no_larger =

@@ -76,7 +76,7 @@ VectorXd Problem::transferred_start(const WindowFit& at, const VectorXd& measure
 
 void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
   MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
-  // Prior standard deviations S. Of inner coordinates: their rms along the measured motion.
+  // Prior standard deviations S; for inner coordinates, their rms along the measured motion.
   const Index measured = output_start_size();
   const std::vector<double> inner = replay.inner_start_scale();
   VectorXd scale(slopes.cols());

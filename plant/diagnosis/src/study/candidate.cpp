@@ -209,7 +209,7 @@ class Builder {
     add_force(GoesWith::position, std::move(ripple));
   }
 
-  /// Shortest travel of an axis.
+  /// Travel of an axis in all runs, at least 1 mm or 1 mrad, so that no range of parameters is empty.
   [[nodiscard]] double travelled(Output output) const {
     return std::max(travel_of(runs_, output).width(), 1e-3);
   }

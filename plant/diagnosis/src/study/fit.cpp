@@ -13,9 +13,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostRounds = 12;
-/// Largest number of attempts of a round, each with more damping: kFewAttempts for the values of one effect
-/// alone, or while the loss exceeds `loss_to_beat`.
+constexpr int kMostRounds = 12;  // of Gauss-Newton
+/// Largest number of attempts of a round, each with more damping than the last. kFewAttempts applies to the
+/// values of one effect alone, and while the loss exceeds `loss_to_beat`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
 /// A round that decreases the Cauchy loss by less is the last one.
@@ -47,7 +47,8 @@ Flat flatten(const Effects& effects) {
   return flat;
 }
 
-/// True if slopes do not describe the loss; beside other effects, the fit has the values of a fit alone.
+/// True if slopes do not describe the loss. Several effects are never rough: their fit begins at the values
+/// that each of them has alone.
 bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
 
 bool same_values(const Effects& a, const Effects& b) {
@@ -91,8 +92,8 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
   return step;
 }
 
-/// Groups of values that are stepped together: all values; then, if there are several effects, the values of
-/// each effect alone, so that an effect with a stepped loss does not block the others.
+/// Groups of values that change together in a step: all values; then, if there are several effects, the
+/// values of each effect alone, so that an effect with a discontinuous loss does not block the others.
 /// @param apart number of leading effects that are stepped alone
 std::vector<std::vector<Index>> step_groups(const Effects& effects, std::size_t apart) {
   std::vector<std::vector<Index>> groups(1);
@@ -250,7 +251,7 @@ Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near) 
   if (start.train.loss < best.train.loss) best = start, along.reset();
   if (can_beat) descend(best, Loss::robust, loss_to_beat, along, best.effects.size());
   if (!along) along = slopes(best.effects, best.train);
-  judge_values(best, *along, {});
+  estimate_uncertainty(best, *along, {});
   best.nuisance = nuisance();
   return best;
 }

@@ -32,15 +32,15 @@ void Study::fit_inaccuracies(Fitted& fitted) {
   fitted.train = std::move(joint.train);
   if (fitted.effects.empty()) return;
   if (!along) along = slopes(joint.effects, fitted.train);
-  judge_values(fitted, *along, {first, joint.effects.end()});
+  estimate_uncertainty(fitted, *along, {first, joint.effects.end()});
 }
 
-void Study::judge_values(Fitted& fitted, const Slopes& along, const Effects& beside) const {
+void Study::estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effects& beside) const {
   const BlockScores both = block_scores(fitted.train, along);
   Index own = 0;
   for (const Effect& effect : fitted.effects) own += static_cast<Index>(effect.values.size());
   fitted.left_out = left_out(leading(both, own));
-  // An inaccuracy at its bound is no free value.
+  // An inaccuracy at its bound is not a free value.
   std::vector<Index> free(static_cast<std::size_t>(own));
   std::iota(free.begin(), free.end(), 0);
   Index next = own;

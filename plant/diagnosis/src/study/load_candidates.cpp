@@ -38,7 +38,7 @@ class LoadBuilder {
 
  private:
   /// The initial values of a resonance differ by about the frequency resolution of 2 s of data. An elastic
-  /// cable is no candidate: no sensor measures its oscillation, and with a free start in every window it
+  /// cable is not a candidate: no sensor measures its oscillation, and with a free start in every window it
   /// would explain the disturbance of clean data.
   void add_structures() {
     const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };

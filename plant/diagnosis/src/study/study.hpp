@@ -97,7 +97,7 @@ struct Uncertainty;
 class Study {
  public:
   /// @param train, test outlive the study
-  /// @param excluded causes that are no candidates @param accuracy of the rig file; by default it is exact
+  /// @param excluded causes that are not candidates @param accuracy of the rig file; by default it is exact
   Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
         const std::vector<std::string>& excluded = {}, const Accuracy& accuracy = {});
   Study(const configuration::Rig& rig, const Runs& train, Runs&& test,
@@ -138,8 +138,8 @@ class Study {
   /// the held-out data, because the error of a model depends on the motion.
   [[nodiscard]] Blocks held_out_deviance(const Fitted& fitted);
 
-  /// Present inaccuracies whose cause and axis no effect has, without those that have the value of the rig
-  /// file.
+  /// Present inaccuracies, except those that have the value of the rig file and those whose cause and axis an
+  /// effect has.
   [[nodiscard]] Effects calibration_beside(const Effects& effects) const;
 
   /// The base model.
@@ -183,21 +183,21 @@ class Study {
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
   /// Gauss-Newton rounds from `best`. @param along  slopes at `best` when known; those of the result on
   /// return
-  /// @param apart  number of leading effects whose values are also stepped alone
+  /// @param apart  number of leading effects whose values also change alone
   /// @return false when the loss cannot fall below `loss_to_beat`
   bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
                std::size_t apart) const;
-  /// The same, with those that have the value of the rig file.
+  /// As calibration_beside(), and also the inaccuracies that have the value of the rig file.
   [[nodiscard]] Effects inaccuracies_beside(const Effects& effects) const;
-  /// Those that are visible in the same parts of the data as an effect.
+  /// The part of inaccuracies_beside() that is visible in the same parts of the data as one of the effects.
   [[nodiscard]] Effects visible_inaccuracies_beside(const Effects& effects) const;
   struct HeldError;
-  /// Errors of the zeros of the swing sensors. Appends the effects of those that no effect describes.
+  /// Errors of the zeros of the swing sensors. Appends an effect for each zero that no effect describes.
   [[nodiscard]] std::vector<HeldError> zero_errors(Effects& effects) const;
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
   void fit_inaccuracies(Fitted& fitted);
   /// Sets covariance and penalty of a fit. @param along slopes, of the effects first
-  void judge_values(Fitted& fitted, const Slopes& along, const Effects& beside) const;
+  void estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effects& beside) const;
   /// Pattern search with decreasing steps. @param hold_bounds  parameters that are usually at a bound stay
   void step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds) const;
   /// Initial values of one effect with a rough loss: the best of its rough_starts and of a pattern search by

@@ -9,9 +9,8 @@ namespace crane::diagnosis {
 
 /// Frequencies [Hz] of the strongest lines of both swing angles, strongest first: peaks of the Welch
 /// periodogram (P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70) between 0.15 and 6 Hz, with
-/// windows of up to 12 s. Of two peaks that are nearer to each other than 4 / (length of the window), only
-/// the stronger one is a line.
-/// A line has at least a hundredth of the strongest line's amplitude.
+/// windows of up to 12 s. If two peaks are nearer to each other than 4 / (length of the window), only the
+/// stronger one is a line. A line has at least a hundredth of the strongest line's amplitude.
 /// @return at most `count` lines; fewer when the spectrum has fewer peaks, none without a measured swing
 [[nodiscard]] std::vector<double> swing_lines(const std::vector<PreparedRun>& runs, std::size_t count);
 

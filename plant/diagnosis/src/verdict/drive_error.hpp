@@ -29,7 +29,7 @@ struct DriveError {
 [[nodiscard]] std::vector<DriveError> drive_errors(const Study& study, const Crane& crane,
                                                    const configuration::Rig& rig, const Accuracy& accuracy);
 
-/// p-value of the number of windows whose error exceeds kDriveError standard uncertainties, for a normal
+/// p value of the number of windows whose error exceeds kDriveError standard uncertainties, for a normal
 /// error in each window: tail of the binomial distribution.
 [[nodiscard]] double p_value(const DriveError& error);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Effects and patterns that are no larger than the errors of an accurate rig file.
+/// Effects and patterns within the stated accuracy of the rig file.
 #include <array>
 #include <optional>
 #include <vector>

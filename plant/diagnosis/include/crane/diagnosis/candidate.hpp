@@ -48,12 +48,12 @@ struct Candidate {
   /// each window, the gain is visible only after a fit of the starts. All values are within the bounds of
   /// `parameters`.
   std::vector<std::vector<double>> ringing_starts;
-  /// Of a cause that gives the load a second natural frequency: further initial values. With these values,
-  /// the load has its natural frequency without the cause, and the frequency of the argument, Hz. Some values
+  /// Further initial values, if the cause gives the load a second natural frequency. With these values, one
+  /// natural frequency is that of the load without the cause; the argument is the other one, Hz. Some values
   /// may be outside their bounds. Empty function: the cause adds no natural frequency.
   std::function<std::vector<std::vector<double>>(double)> ringing_starts_at;
-  bool rough = false;  ///< true: the loss has steps that slopes do not describe
-  /// Of a rough candidate: values of which the fit compares the whole loss before it begins.
+  bool rough = false;  ///< true: the loss is discontinuous; slopes do not describe it
+  /// Initial values of a rough candidate. The fit begins at the one with the smallest loss.
   std::vector<std::vector<double>> rough_starts;
   std::optional<GoesWith> law;           ///< the only variable on which the force of the candidate depends
   bool changes_known_parameter = false;  ///< true: the base model contains this quantity, with another value

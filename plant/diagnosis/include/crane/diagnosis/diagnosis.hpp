@@ -46,7 +46,7 @@ struct Ranked {
 /// Held-out simulation error per output column.
 struct HeldOut {
   std::map<std::string, double> baseline_rms, extended_rms;  ///< m or rad, in windows
-  /// Of sensor and disturbance: training error of the extended model, m or rad.
+  /// Training error of the extended model, caused by sensor and disturbance, m or rad.
   std::map<std::string, double> noise;
   std::map<std::string, double> whole_baseline_rms, whole_extended_rms;  ///< whole runs, open loop
   /// Error of a model that holds the first measured value, m or rad; a useful simulation has a smaller error.
