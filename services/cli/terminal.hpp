@@ -13,7 +13,7 @@ struct TerminalSize {
 };
 /// True: standard output is a terminal.
 [[nodiscard]] bool output_is_terminal();
-/// Of standard output; 80 x 24 when it is no terminal.
+/// Size of the terminal; 80 x 24 when standard output is not a terminal.
 [[nodiscard]] TerminalSize terminal_size();
 
 /// Characters of a UTF-8 text, each one column wide.
@@ -38,7 +38,7 @@ class Screen {
   [[nodiscard]] bool quit_requested();
 
  private:
-  std::optional<termios> settings_;  ///< to restore; nothing: standard input is no terminal
+  std::optional<termios> settings_;  ///< to restore; nothing: standard input is not a terminal
   bool quit_ = false;
 };
 

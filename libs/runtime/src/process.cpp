@@ -89,7 +89,8 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
   add_bus_options(app, options.bus);
   app.add_option("--rig", options.rig, "rig file (deploy/rigs/*.toml)")->required();
   app.add_option("--controller", options.controller, "controller; default: the controller of the rig file");
-  app.add_option("--clock", options.clock, "realtime; or lockstep: the plant waits for every command")
+  app.add_option("--clock", options.clock,
+                 "realtime: one tick per period; lockstep: the plant waits for every command")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   app.add_option("--epoch", options.epoch, "start-up number in the header of every sample; 0: random");

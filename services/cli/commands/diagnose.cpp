@@ -232,9 +232,9 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       "  none        these data show no error of the simulation beyond the accuracy of the rig file\n"
       "  named       the simulation lacks these causes\n"
       "  parameter   a value of the rig file is wrong\n"
-      "  ambiguous   several causes explain the data equally; the next experiment distinguishes them\n"
+      "  ambiguous   several causes explain the data equally well; the next experiment distinguishes them\n"
       "  unknown     the simulation is wrong, and no known cause explains it\n"
-      "Exit code: 0 for every verdict, 2 for data that cannot be used.\n"
+      "Exit code: 0 for every verdict, 1 when a file cannot be written, 2 for bad arguments, files or data.\n"
       "docs/diagnosis.md explains method, files and limits.");
   command->callback([options, &chosen] { chosen = [options] { return diagnose(*options); }; });
 }

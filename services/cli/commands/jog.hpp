@@ -18,7 +18,7 @@ struct StickOptions {
 };
 
 /// Operates the stick with the keys of the terminal until q. @return exit code
-/// @throws std::runtime_error when standard input is no terminal, or when the crane has stopped
+/// @throws std::runtime_error when standard input is not a terminal, or when the crane has stopped
 int jog_by_keyboard(const StickOptions& options);
 
 /// Operates the stick with a gamepad until Ctrl-C. @param device_path  empty: the only gamepad in /dev/input

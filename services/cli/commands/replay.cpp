@@ -69,9 +69,9 @@ void print_remarks(const replay::Result& found) {
     std::cerr << "the recording is damaged: the replay ends after tick " << found.equal_ticks - 1 << '\n';
   if (!found.ends.empty()) std::cerr << "the replay ends before " << found.ends << '\n';
   if (found.assumed_ticks > 0)
-    std::cerr
-        << "the first " << found.assumed_ticks
-        << " ticks are not in the recording: the replay assumes that the crane rested as in the next one\n";
+    std::cerr << "the first " << found.assumed_ticks
+              << " ticks are not in the recording: the replay assumes that the crane rested as in the first "
+                 "recorded tick\n";
   if (found.not_recorded > 0)
     std::cerr << found.not_recorded << " samples are not in the recording and were not compared\n";
   if (found.irregular_ticks > 0)
@@ -185,7 +185,7 @@ void add_replay(CLI::App& app, Action& chosen) {
                       "controller=NAME: compute what this controller would have demanded at the recorded "
                       "states, and write a CSV file");
   command->add_option("--out", options->out,
-                      "CSV file of --swap; default: FILE with the name of the controller and .csv");
+                      "CSV file of --swap; default: FILE with the extension .NAME.csv instead of .mcap");
   auto* processes =
       command->add_flag("--processes", options->processes,
                         "one process for each component, over DDS; default: one process for all");
@@ -208,8 +208,10 @@ void add_replay(CLI::App& app, Action& chosen) {
       "Examples: crane replay out/recording.mcap\n"
       "          crane replay run.mcap --processes --dds fastdds\n"
       "          crane replay out/recording.mcap --swap controller=delayed_1\n"
-      "Exit code 1 when a sample differs: the output names tick, topic, field and both values.\n"
-      "The recording must begin with the start of the stack (docs/data.md).");
+      "Exit code: 0 all samples are equal, 1 a sample differs or is missing (the output names tick, topic, "
+      "field\n"
+      "and both values), 2 the recording cannot be replayed: it must begin with the start of the stack\n"
+      "(docs/data.md).");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -206,7 +206,7 @@ void add_up(CLI::App& app, Action& chosen) {
                       "controller; default: the controller of the rig file");
   command
       ->add_option("--clock", options->launch.clock,
-                   "realtime; or lockstep: simulated time, as fast as possible")
+                   "realtime: one tick per period; lockstep: simulated time, as fast as possible")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_flag("--in-process", options->in_process,
