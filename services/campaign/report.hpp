@@ -13,7 +13,7 @@ namespace crane::campaign {
 [[nodiscard]] std::string to_string(const Reason& reason);
 /// Full description of one run.
 [[nodiscard]] std::string describe(const Result& result);
-/// Converts a run to a line of a log, and back. @return nothing when the line is no run
+/// Converts a run to a line of a log, and back. @return nothing when the line is not a run
 [[nodiscard]] std::string line_of(const Result& result);
 [[nodiscard]] std::optional<Result> result_from(const std::string& line);
 

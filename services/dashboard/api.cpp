@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Parses "topic=crane/state&from=1" to pairs. Of equal keys, the last one counts.
+/// Parses "topic=crane/state&from=1" to pairs. If a key occurs more than once, the last value counts.
 std::map<std::string, std::string, std::less<>> parameters_of(std::string_view query) {
   std::map<std::string, std::string, std::less<>> parameters;
   while (!query.empty()) {

@@ -73,9 +73,9 @@ class Server {
  private:
   void accept();
   void welcome(boost::asio::ip::tcp::socket socket);
-  /// Ends the oldest connection that is no viewer: for a newcomer from this computer any, for another one a
-  /// connection of its own address. A program that occupies all connections therefore cannot keep out an
-  /// operator. @return false when there is none
+  /// Closes the oldest connection that is not a viewer, to admit a client at `address`. A client on another
+  /// computer displaces only connections of its own address. A program that occupies all connections
+  /// therefore cannot keep out an operator. @return false when there is no such connection
   bool displace_oldest(const std::string& address, bool foreign);
   void take_samples();
   void beat();

@@ -19,10 +19,10 @@ namespace crane::observation {
 
 struct Note {
   enum class Kind : std::uint8_t {
-    order,
-    warning,
-    fault
-  };                       ///< order: requested by an operator or by the idle time
+    order,    ///< a stop that an operator or the idle time requested
+    warning,  ///< a warning, or the orderly end of a process
+    fault     ///< any other cause, a latch, an error, or the silence of a process
+  };
   std::int64_t at_ns = 0;  ///< ns since 1970
   std::uint64_t tick = 0;
   Kind kind = Kind::fault;

@@ -37,7 +37,7 @@ class FieldTable {
   [[nodiscard]] const std::vector<TopicFields>& topics() const { return topics_; }
   /// @param name  "state.applied_v[0]" or "crane/state.applied_v[0]". @return nothing: no such field
   [[nodiscard]] std::optional<Field> find(std::string_view name) const;
-  /// Explains why `name` is no field, and names the most similar field.
+  /// Explains why `name` is not a field, and names the most similar field.
   [[nodiscard]] std::string explain(std::string_view name) const;
   /// Symbol of the field in an expression; nothing: the field is a text.
   [[nodiscard]] std::optional<expression::Symbol> symbol_of(const Field& field) const;
@@ -60,7 +60,7 @@ class FieldSelection {
  public:
   explicit FieldSelection(const FieldTable& table) : table_{table} {}
   /// @return column of the field; a new field gets a new column
-  /// @throws std::invalid_argument that explains why `name` is no field
+  /// @throws std::invalid_argument that explains why `name` is not a field
   std::size_t add(std::string_view name);
   /// Names for an expression: fields and enumerators. A field that is looked up gets a column. The vocabulary
   /// is valid while this object lives.

@@ -17,7 +17,7 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 using Field = bus::CdrCodec::Field;
 
-/// The C struct of a sample; empty when the bytes are no valid sample.
+/// The C struct of a sample; empty when the bytes are not a valid sample.
 std::vector<std::uint8_t> struct_of(const bus::CdrCodec& codec, Bytes cdr) {
   std::vector<std::uint8_t> sample(codec.sample_bytes());
   const bool valid = cdr.size() >= bus::kEncapsulation_bytes &&

@@ -14,7 +14,7 @@ namespace crane::replay {
 
 using Cdr = std::vector<std::uint8_t>;
 
-/// @return nothing when the bytes are no valid sample
+/// @return nothing when the bytes are not a valid sample
 template <class T>
 [[nodiscard]] std::optional<T> decoded(const topics::Topic<T>& topic, std::span<const std::uint8_t> cdr) {
   T sample{};

@@ -51,7 +51,7 @@ struct Review {
   [[nodiscard]] const observation::Note* first_cause() const;
 };
 
-/// Reads all intact parts of the file. @throws recording::ReadError when the file is no recording of this
+/// Reads all intact parts of the file. @throws recording::ReadError when the file is not a recording of this
 /// version
 [[nodiscard]] Review review(const std::filesystem::path& file);
 

@@ -81,7 +81,7 @@ void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions
   options.bus.vendor = chosen != options.vendors.end() ? chosen->second : "fastdds";
   options.rig = rig;
   options.priority = 0;
-  options.ledger = nullptr;  // the twin is no process of the loop
+  options.ledger = nullptr;  // the twin is not a process of the loop
   launch(children, {twin::twin_spec()}, options);
 }
 

@@ -49,7 +49,7 @@ class MarginRuns {
   [[nodiscard]] Margins margins() const;
 
  private:
-  /// Of all maneuvers of one case.
+  /// True when the result of every maneuver of the case is true. @param number  of the case
   [[nodiscard]] bool all(const std::vector<bool>& results, std::size_t number) const;
 
   std::size_t maneuvers_;

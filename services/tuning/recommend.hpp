@@ -4,7 +4,8 @@
 /// Every candidate runs the maneuvers on the rig; those that settle are ranked by their mean settling time.
 /// The best are tested with a longer delay, a larger gain, another cable length, load and friction. Those
 /// with the required margins run the maneuvers on rigs drawn from the standard errors of the identification.
-/// Of the entries that settle on all of them, the one with the least predicted settling time is recommended.
+/// The recommendation is the entry with the least predicted settling time among those that settle on all of
+/// these rigs.
 #include <array>
 #include <functional>
 #include <optional>
