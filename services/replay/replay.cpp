@@ -89,13 +89,13 @@ class Comparison {
   }
 
   void note_irregularity(const RecordedTick& tick) {
+    if (stack_.is_prescribed() && tick.steps.planner_may_lack_status && !stack_.decides_by_outputs())
+      doubt_ = Doubt{next_, "the planner may have lacked crane/supervisor"};
     if (tick.irregular.empty()) return;
     ++result_.irregular_ticks;
     result_.steps_without_state += tick.without_state.size();
-    const bool undecided = tick.steps.planner_may_lack_status && !stack_.decides_by_outputs();
     // The recording does not state the exact time of a step without a state.
-    if (!stack_.is_prescribed() || undecided || !tick.without_state.empty())
-      doubt_ = Doubt{next_, tick.irregular};
+    if (!stack_.is_prescribed() || !tick.without_state.empty()) doubt_ = Doubt{next_, tick.irregular};
   }
 
   bool are_equal_without_state(const RecordedTick& tick) {

@@ -37,7 +37,8 @@ class LateStack {
     bus::set_wire(*stack_.network(),
                   [this](const auto& topic, const void* sample, const bus::Deliver& deliver) {
                     record(topic, sample);
-                    deliver(sample);
+                    if (!loses_statuses_ || topic.name != topics::supervisor.description.name)
+                      deliver(sample);
                   });
   }
   void run(double seconds) { stack_.run_until(stack_.now_ns() + std::llround(seconds * 1e9)); }
@@ -55,6 +56,12 @@ class LateStack {
     jog.deflection[1] = slew;
     ASSERT_TRUE(jogs_.publish(jog));
     run(0.01);
+  }
+  /// The planner receives no status for one tick.
+  void run_a_tick_without_status() {
+    loses_statuses_ = true;
+    run(0.01);
+    loses_statuses_ = false;
   }
   /// From now on, the recorder misses what operators publish.
   void miss_operators(bool misses) { misses_operators_ = misses; }
@@ -88,7 +95,7 @@ class LateStack {
   stack::OperatorClient operator_;
   bus::Publisher<msg::Jog> jogs_;
   std::uint64_t newest_tick_ = 0, last_id_ = 0;
-  bool misses_operators_ = false;
+  bool misses_operators_ = false, loses_statuses_ = false;
 };
 
 struct LateRun {
@@ -169,6 +176,42 @@ TEST(LostJogs, FollowFromTheStatuses) {
   EXPECT_GT(result.equal_ticks, 600U);
   ASSERT_EQ(result.derived_requests.size(), 4U);
   EXPECT_NE(result.derived_requests.back().find("crane/jog of client 'operator'"), std::string::npos);
+}
+
+/// The status of an accepted move was published in time, and the planner did not receive it.
+replay::Result with_lost_statuses(int moves) {
+  const recording::TemporaryDirectory directory;
+  const auto file = directory / "lost_statuses.mcap";
+  LateStack crane{file, "virginia_tech_tower", "gain_scheduling_partial"};
+  crane.run(1.3);
+  crane.ask({.kind = crane_REQUEST_RESET});
+  crane.run(1.1);
+  crane.ask({.kind = crane_REQUEST_ARM});
+  crane.run(1);
+  for (int i = 0; i < moves; ++i) {
+    crane.ask(
+        {.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {0.4 + 0.05 * i, 0, 0}});
+    crane.run_a_tick_without_status();
+    crane.run(0.5);
+  }
+  crane.close();
+  return replay::replay(file, replay::loop_components());
+}
+
+TEST(LostStatuses, AreDecidedByTheReference) {
+  const auto result = with_lost_statuses(4);
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.ends, "");
+  EXPECT_EQ(result.decided_by_outputs, 4U);
+}
+
+TEST(LostStatuses, EndTheReplayWhenTooManyTicksAreUndecided) {
+  const auto result = with_lost_statuses(9);
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_NE(result.ends.find("crane/reference differs, and in tick"), std::string::npos) << result.ends;
+  EXPECT_NE(result.ends.find("the planner may have lacked crane/supervisor"), std::string::npos)
+      << result.ends;
+  EXPECT_EQ(result.decided_by_outputs, 7U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Replay, LateProcesses,
