@@ -67,34 +67,34 @@ std::vector<double Design::*> gains_of(std::string_view controller) {
   return {};
 }
 
-/// Departures for the displayed values; the argument of `change` is scale * value + offset.
+/// Perturbations for the displayed values; the argument of `change` is scale * value + offset.
 struct Sweep {
   std::string quantity, unit;
   std::vector<double> values;
   std::function<void(PlannedRun&, double)> change;
 };
 
-void append(std::vector<Departure>& all, const Sweep& sweep) {
+void append(std::vector<Perturbation>& all, const Sweep& sweep) {
   for (const double value : sweep.values)
     all.push_back({sweep.quantity, sweep.unit, value,
                    [change = sweep.change, value](PlannedRun& plan) { change(plan, value); }});
 }
 
-/// Departures by a ratio, for displayed values in per cent.
+/// Perturbations by a ratio, for displayed values in per cent.
 std::function<void(PlannedRun&, double)> percent(void (*change)(PlannedRun&, double)) {
   return [change](PlannedRun& plan, double value) { change(plan, 1 + value / 100); };
 }
 
-const experiment::ComparedRun* find(std::span<const DepartedRun> runs, const DepartedRun& like,
+const experiment::ComparedRun* find(std::span<const PerturbedRun> runs, const PerturbedRun& like,
                                     const std::string& controller) {
-  const auto found = std::find_if(runs.begin(), runs.end(), [&](const DepartedRun& r) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const PerturbedRun& r) {
     return r.quantity == like.quantity && r.value == like.value && r.run.scenario == like.run.scenario &&
            r.run.controller == controller;
   });
   return found == runs.end() ? nullptr : &found->run;
 }
 
-std::string name_of(const DepartedRun& run) {
+std::string name_of(const PerturbedRun& run) {
   if (run.quantity.empty()) return "nominal";
   return run.quantity + ' ' + (run.unit == "%" && run.value > 0 ? "+" : "") + recording::shortest(run.value) +
          (run.unit.empty() ? "" : ' ' + run.unit);
@@ -110,7 +110,7 @@ std::string cell(const experiment::ComparedRun* run) {
 }
 
 template <class Field>
-std::vector<std::string> distinct(std::span<const DepartedRun> runs, Field field) {
+std::vector<std::string> distinct(std::span<const PerturbedRun> runs, Field field) {
   std::vector<std::string> values;
   for (const auto& run : runs)
     if (std::find(values.begin(), values.end(), run.run.*field) == values.end())
@@ -124,8 +124,8 @@ double filter_delay_s(double cut_off_ratio, double period_s) {
   return std::numbers::sqrt2 / (2 * std::numbers::pi * cut_off_ratio) * period_s;
 }
 
-std::vector<Departure> departures(const PlannedRun& plan) {
-  std::vector<Departure> all{{"", "", 0, [](PlannedRun&) {}}};
+std::vector<Perturbation> perturbations(const PlannedRun& plan) {
+  std::vector<Perturbation> all{{"", "", 0, [](PlannedRun&) {}}};
   append(all, {"cable_length", "%", {-50, -25, 25, 50}, percent(change_cable)});
   if (plan.rig.has_load()) append(all, {"load_mass", "%", {-50, -25, 25, 50}, percent(change_load)});
   append(all, {"friction_compensation", "%", {-20, -10, 10, 20}, percent(change_compensation)});
@@ -141,7 +141,7 @@ std::vector<Departure> departures(const PlannedRun& plan) {
   return all;
 }
 
-void write_sensitivity_csv(std::ostream& out, std::span<const DepartedRun> runs) {
+void write_sensitivity_csv(std::ostream& out, std::span<const PerturbedRun> runs) {
   out << "scenario,controller,quantity,unit,value,settling_time_s,residual_swing_deg,largest_swing_radial_"
          "deg,"
          "largest_swing_tangential_deg,stopped_because\n";
@@ -162,7 +162,7 @@ void write_sensitivity_csv(std::ostream& out, std::span<const DepartedRun> runs)
   }
 }
 
-void write_sensitivity_markdown(std::ostream& out, std::span<const DepartedRun> runs) {
+void write_sensitivity_markdown(std::ostream& out, std::span<const PerturbedRun> runs) {
   const auto controllers = distinct(runs, &experiment::ComparedRun::controller);
   for (const auto& scenario : distinct(runs, &experiment::ComparedRun::scenario)) {
     out << "## " << scenario << "\n\nSettling time [s] / residual swing [deg]; -: not settled.\n\n|  |";

@@ -1,6 +1,5 @@
 #pragma once
-/// Sensitivity analysis: the same move is repeated while one quantity at a time departs from its nominal
-/// value.
+/// Sensitivity analysis: repeats the same move with one quantity at a time perturbed.
 #include <functional>
 #include <iosfwd>
 #include <span>
@@ -11,19 +10,19 @@
 
 namespace crane::cli {
 
-/// One departure. It changes scenario and rig before the start.
-struct Departure {
+/// One quantity with another than its nominal value.
+struct Perturbation {
   std::string quantity;  ///< "cable_length", ...; empty: nominal run
   std::string unit;      ///< unit of `value`
   double value = 0;
-  std::function<void(experiments::PlannedRun&)> change;
+  std::function<void(experiments::PlannedRun&)> change;  ///< changes scenario and rig before the start
 };
 
 /// Low-frequency delay of the second-order Butterworth filter, sqrt(2) / (2 pi cut-off). @pre cut_off_ratio >
 /// 0
 [[nodiscard]] double filter_delay_s(double cut_off_ratio, double period_s);
 
-/// Departures that apply to the controller of the plan; the first one is the nominal run:
+/// Perturbations that apply to the controller of the plan; the first one is the nominal run:
 ///   cable_length, load_mass        true value, -50 to 50 % relative to the nominal value
 ///   friction_compensation          -20 to 20 % of the compensated friction
 ///   command_delay                  1 to 3 additional ticks, trolley and slew
@@ -31,18 +30,18 @@ struct Departure {
 ///   swing_filter                   the same filter also on the swing angles
 ///   swing_filter_for_delay         swing_filter, with the delay of the law reduced by that of the filter
 ///   gain                           -50 to 50 % of the forward gain K or of the gains of the anti-swing law
-[[nodiscard]] std::vector<Departure> departures(const experiments::PlannedRun& plan);
+[[nodiscard]] std::vector<Perturbation> perturbations(const experiments::PlannedRun& plan);
 
-struct DepartedRun {
+struct PerturbedRun {
   std::string quantity, unit;
   double value = 0;
   experiment::ComparedRun run;
 };
 
 /// Writes one row per run; missing figures are empty.
-void write_sensitivity_csv(std::ostream& out, std::span<const DepartedRun> runs);
-/// Writes a table for each scenario; rows are departures, columns are controllers: settling time in s /
+void write_sensitivity_csv(std::ostream& out, std::span<const PerturbedRun> runs);
+/// Writes a table for each scenario; rows are perturbations, columns are controllers: settling time in s /
 /// residual swing in degrees.
-void write_sensitivity_markdown(std::ostream& out, std::span<const DepartedRun> runs);
+void write_sensitivity_markdown(std::ostream& out, std::span<const PerturbedRun> runs);
 
 }  // namespace crane::cli

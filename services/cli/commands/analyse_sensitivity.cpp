@@ -99,7 +99,7 @@ void write_file(const fs::path& file, Write write) {
 }
 
 struct SensitivityPlan {
-  std::vector<DepartedRun> runs;  ///< without results
+  std::vector<PerturbedRun> runs;  ///< without results
   std::vector<experiments::PlannedRun> plans;
 };
 
@@ -110,10 +110,10 @@ SensitivityPlan plan_of(const SensitivityOptions& options, const configuration::
     for (const auto& controller : options.controllers) {
       const experiments::PlannedRun as_designed{scenario, rig, &runtime::chosen_controller(controller, rig),
                                                 ""};
-      for (const auto& departure : departures(as_designed)) {
+      for (const auto& perturbation : perturbations(as_designed)) {
         plan.plans.push_back(as_designed);
-        departure.change(plan.plans.back());
-        plan.runs.push_back({departure.quantity, departure.unit, departure.value, {}});
+        perturbation.change(plan.plans.back());
+        plan.runs.push_back({perturbation.quantity, perturbation.unit, perturbation.value, {}});
       }
     }
   }
@@ -129,7 +129,7 @@ void run_all(SensitivityPlan& plan) {
   for (std::size_t i = 0; i < results.size(); ++i) plan.runs[i].run = std::move(results[i]);
 }
 
-nlohmann::ordered_json runs_json(const std::vector<DepartedRun>& runs) {
+nlohmann::ordered_json runs_json(const std::vector<PerturbedRun>& runs) {
   auto json = nlohmann::ordered_json::array();
   for (const auto& [quantity, unit, value, run] : runs) {
     nlohmann::ordered_json entry{{"scenario", run.scenario}, {"controller", run.controller},

@@ -10,7 +10,7 @@
 
 namespace crane::control::adaptation {
 
-/// Means over one block, with the sign of the motion: all as for motion in positive direction.
+/// Means over one block, multiplied by the sign of the motion.
 struct Block {
   double free_v = 0, load_vpkg = 0, inertia_v = 0, speed = 0;
 };
@@ -40,7 +40,7 @@ class LevelFilter {
   [[nodiscard]] Estimated moving_v(std::size_t axis, std::size_t direction, double speed) const noexcept;
   /// Standard deviation of a block that the model does not explain.
   [[nodiscard]] double scatter_v(std::size_t axis) const noexcept;
-  /// Its part that exceeds the least scatter: noise of the encoder.
+  /// Part of scatter_v() above the least scatter: noise of the encoder.
   [[nodiscard]] double noise_v(std::size_t axis) const noexcept;
   [[nodiscard]] Estimated coulomb_v(std::size_t axis, std::size_t direction) const noexcept;
   [[nodiscard]] Estimated viscous_vspm(std::size_t axis, std::size_t direction) const noexcept;

@@ -33,10 +33,9 @@ namespace crane::diagnosis {
 /// - The gain of likelihood is significant for the best of `candidates` (Bonferroni): block test and
 ///   likelihood-ratio test.
 /// - The error decreases: for a first effect by more than kLeastAlone, for a further effect by any amount.
-/// - Each further effect changes some output by at least kLeastBeside of the largest change by another
-/// effect.
-///   The form of a term never matches an effect exactly, and a smaller change could be the fit of this
-///   mismatch.
+/// - Each further effect changes an output by at least kLeastBeside of the largest change of this output by
+///   another effect. A smaller change could be the fit of a mismatch, because no term matches an effect
+///   exactly.
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);

@@ -64,18 +64,20 @@ class Problem {
   }
   [[nodiscard]] const std::vector<Disturbance>& disturbances() const { return disturbances_; }
 
-  /// Solves for the starts, from the measured ones.
+  /// Estimates the starts. The iteration begins at the measured starts.
   [[nodiscard]] Fits fit(const Replays& crane) const;
-  /// The same from the starts of `near`: another noise, or similar parameters.
+  /// Like fit(), but the iteration begins at the starts of `near`: a fit with other noise or similar
+  /// parameters.
   [[nodiscard]] Fits fit_again(const Replays& crane, const Fits& near) const;
-  /// The same with the linearisation of `near`, a similar crane; as fit() if it has other coordinates.
+  /// Like fit_again(), with the slopes of the starts of `near`, a similar crane. If `near` has other
+  /// coordinates, like fit().
   [[nodiscard]] Fits fit_near(const Replays& crane, const Fits& near) const;
   /// Slopes: (outputs of crane - at) / step, whitened, start marginal; also the start of coordinates that
   /// only `crane` has.
   /// @param own receives the decrease of the loss by the start of such coordinates alone
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane, const Fits& at, double step,
                                                     double* own = nullptr) const;
-  /// The same windows without whitening: starts minimise the error in m or rad.
+  /// This problem without whitening: its starts minimise the error in m or rad.
   [[nodiscard]] Problem plain() const;
   /// Measured rows of a window, outputs one after the other. Rows without a measurement are 0, in the
   /// simulation too: their residual is 0.

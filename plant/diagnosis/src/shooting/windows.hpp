@@ -13,8 +13,8 @@ struct Window {
 
 /// Divides each run into equal windows of about `window_s`; kWholeRun: one window. A window ends at a gap of
 /// the prescribed motion (of the drives for the load, of the load for the drives) that is longer than
-/// kLongestGap_periods of the load and kLongestGap_rows of the column. It has at least kFewestRows measured
-/// rows of each output.
+/// kLongestGap_periods of the load and kLongestGap_rows of the column. A window has at least kFewestRows
+/// measured rows of each output.
 /// @param natural_radps of the swing; 0: gaps do not end windows
 [[nodiscard]] std::vector<Window> windows_of(const Runs& runs, Part part, double window_s, double lead_s,
                                              double natural_radps);
