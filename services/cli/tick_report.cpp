@@ -19,10 +19,11 @@ namespace {
 struct TickRow {
   double p50_us = 0, p99_us = 0, mean_us = 0;
 };
-TickRow row_of(const Ledger& ledger, const std::function<std::int64_t(const TickPath&)>& quantity_ns) {
+TickRow row_of(const TickBreakdown& breakdown,
+               const std::function<std::int64_t(const TickPath&)>& quantity_ns) {
   std::vector<double> values;
   double sum = 0;
-  for (const auto& tick : ledger.ticks) {
+  for (const auto& tick : breakdown.ticks) {
     values.push_back(static_cast<double>(quantity_ns(tick)) / 1e3);
     sum += values.back();
   }
@@ -39,7 +40,7 @@ struct HopMean {
 std::vector<HopMean> hop_means(const TickBench& bench) {
   std::map<std::pair<std::size_t, std::size_t>, HopMean> means;
   std::vector<std::pair<std::size_t, std::size_t>> order;
-  for (const auto& tick : bench.ledger.ticks)
+  for (const auto& tick : bench.breakdown.ticks)
     for (const auto& hop : tick.hops) {
       auto [found, added] = means.try_emplace({hop.from, hop.to});
       if (added) {
@@ -74,15 +75,15 @@ Json json_of_threads(const ThreadShare& share) {
 }  // namespace
 
 Json json_of(const TickBench& bench) {
-  const auto& ledger = bench.ledger;
-  const auto total = row_of(ledger, [](const TickPath& tick) { return tick.latency_ns; });
+  const auto& breakdown = bench.breakdown;
+  const auto total = row_of(breakdown, [](const TickPath& tick) { return tick.latency_ns; });
   Json json{{"period_s", bench.period_s},
             {"priority", bench.priority},
-            {"ticks", ledger.ticks.size()},
-            {"left_out", ledger.left_out},
+            {"ticks", breakdown.ticks.size()},
+            {"left_out", breakdown.left_out},
             {"state_to_command_us", {{"p50", total.p50_us}, {"p99", total.p99_us}, {"mean", total.mean_us}}}};
   for (std::size_t i = 0; i < kParts; ++i) {
-    const auto row = row_of(ledger, [i](const TickPath& tick) { return sum_of_hops(tick)[i]; });
+    const auto row = row_of(breakdown, [i](const TickPath& tick) { return sum_of_hops(tick)[i]; });
     json["parts"].push_back({{"part", kPartNames[i]},
                              {"p50_us", row.p50_us},
                              {"p99_us", row.p99_us},
@@ -119,7 +120,7 @@ void print(const TickBench& bench, std::ostream& out) {
   const auto json = json_of(bench);
   const auto text = [](const Json& value, int digits = 1) { return fixed(value.get<double>(), digits); };
   const auto& total = json["state_to_command_us"];
-  out << "ticks " << bench.ledger.ticks.size() << ", left out " << bench.ledger.left_out << ", period "
+  out << "ticks " << bench.breakdown.ticks.size() << ", left out " << bench.breakdown.left_out << ", period "
       << fixed(bench.period_s * 1e3, 1) << " ms, "
       << (bench.floors.front().fifo ? "SCHED_FIFO " + std::to_string(bench.priority)
                                     : std::string{"ordinary scheduling"})

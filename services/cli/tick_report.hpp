@@ -6,7 +6,7 @@
 
 #include "cli/floors.hpp"
 #include "cli/processor_time.hpp"
-#include "cli/tick_ledger.hpp"
+#include "cli/tick_breakdown.hpp"
 
 namespace crane::cli {
 
@@ -17,7 +17,7 @@ struct TickBench {
   int priority = 0;
   std::vector<Floor> floors;
   std::vector<ProcessShare> processor;
-  Ledger ledger;
+  TickBreakdown breakdown;
 };
 
 [[nodiscard]] nlohmann::ordered_json json_of(const TickBench& bench);

@@ -1,5 +1,5 @@
-/// crane bench tick: the ledger of one tick, from the latched state to the arrival of its command, beside the
-/// floors of the same run.
+/// crane bench tick: breakdown of the latency of a tick, from the latched state to the arrival of its
+/// command, beside the floors of the same run.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -98,7 +98,7 @@ TickBench measure(const MeasuredStack& options) {
                   .priority = options.launch.priority,
                   .floors = {},
                   .processor = {},
-                  .ledger = {}};
+                  .breakdown = {}};
   Floors floors{{.bus = options.launch.bus,
                  .period_ns = static_cast<std::int64_t>(rig.period_s * 1e9),
                  .ticks = static_cast<std::size_t>(options.seconds / rig.period_s) + 1,
@@ -130,8 +130,8 @@ TickBench measure(const MeasuredStack& options) {
   for (const auto& floor : bench.floors)
     if (floor.name == "udp_chain")
       isolated.udp_hop_ns = static_cast<std::int64_t>(observation::spread(floor.times_us)->p50 * 1e3 / 4);
-  bench.ledger = tick_ledger(bench.processes, records, isolated);
-  if (bench.ledger.ticks.empty()) throw std::runtime_error("no tick has passed all processes");
+  bench.breakdown = break_down(bench.processes, records, isolated);
+  if (bench.breakdown.ticks.empty()) throw std::runtime_error("no tick has passed all processes");
   return bench;
 }
 

@@ -1,5 +1,5 @@
-// The ledger of crane bench tick: whatever the stamps are, the parts of a tick add up to its latency.
-#include "cli/tick_ledger.hpp"
+// The breakdown by crane bench tick: whatever the stamps are, the parts of a tick add up to its latency.
+#include "cli/tick_breakdown.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ class RandomStack {
     std::erase_if(records_[process], [tick](const PathRecord& record) { return record.tick == tick; });
   }
 
-  [[nodiscard]] Ledger ledger() const { return tick_ledger(processes(), records_, isolated_); }
+  [[nodiscard]] TickBreakdown breakdown() const { return break_down(processes(), records_, isolated_); }
   [[nodiscard]] std::size_t slower_law(std::uint64_t tick) const { return slower_law_.at(tick); }
   [[nodiscard]] static const std::vector<runtime::ComponentSpec>& processes() {
     static const auto specs = stack::hardware_stack();
@@ -93,16 +93,16 @@ class RandomStack {
   std::map<std::uint64_t, std::size_t> slower_law_;
 };
 
-TEST(TickLedger, PartsOfEveryTickAddUpToItsLatency) {
+TEST(TickBreakdown, PartsOfEveryTickAddUpToItsLatency) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomStack stack{seed};
     std::vector<std::int64_t> latencies_ns;
     for (std::uint64_t tick = 0; tick < 21; ++tick) latencies_ns.push_back(stack.add_tick(tick));
-    const auto ledger = stack.ledger();
-    ASSERT_EQ(ledger.ticks.size(), 20U);  // the last command has not arrived yet
-    EXPECT_EQ(ledger.left_out, 0U);
-    for (const auto& tick : ledger.ticks) {
+    const auto breakdown = stack.breakdown();
+    ASSERT_EQ(breakdown.ticks.size(), 20U);  // the last command has not arrived yet
+    EXPECT_EQ(breakdown.left_out, 0U);
+    for (const auto& tick : breakdown.ticks) {
       const auto parts_ns = sum_of_hops(tick);
       EXPECT_EQ(std::accumulate(parts_ns.begin(), parts_ns.end(), std::int64_t{0}), tick.latency_ns);
       EXPECT_EQ(tick.latency_ns, latencies_ns[tick.tick]);
@@ -111,34 +111,34 @@ TEST(TickLedger, PartsOfEveryTickAddUpToItsLatency) {
   }
 }
 
-TEST(TickLedger, PathLeadsThroughTheSlowerLawAndBackToTheBridge) {
+TEST(TickBreakdown, PathLeadsThroughTheSlowerLawAndBackToTheBridge) {
   RandomStack stack{7};
   for (std::uint64_t tick = 0; tick < 50; ++tick) stack.add_tick(tick);
-  const auto ledger = stack.ledger();
-  for (const auto& tick : ledger.ticks) {
+  const auto breakdown = stack.breakdown();
+  for (const auto& tick : breakdown.ticks) {
     std::vector<std::size_t> route;
     for (const auto& hop : tick.hops) route.push_back(hop.to);
     EXPECT_THAT(route, testing::ElementsAre(stack.slower_law(tick.tick), 4, 5, 0)) << "tick " << tick.tick;
   }
 }
 
-TEST(TickLedger, TickWithoutACompletePathIsLeftOut) {
+TEST(TickBreakdown, TickWithoutACompletePathIsLeftOut) {
   RandomStack stack{3};
   for (std::uint64_t tick = 0; tick < 10; ++tick) stack.add_tick(tick);
   stack.lose(4, 5);
   stack.lose(6, 4);
-  const auto ledger = stack.ledger();
-  EXPECT_EQ(ledger.left_out, 2U);
-  EXPECT_EQ(ledger.ticks.size(), 7U);
-  for (const auto& tick : ledger.ticks)
+  const auto breakdown = stack.breakdown();
+  EXPECT_EQ(breakdown.left_out, 2U);
+  EXPECT_EQ(breakdown.ticks.size(), 7U);
+  for (const auto& tick : breakdown.ticks)
     EXPECT_THAT(tick.tick, testing::AllOf(testing::Ne(4U), testing::Ne(6U)));
 }
 
-TEST(TickLedger, TheKernelsPartIsAtMostOneUdpHop) {
+TEST(TickBreakdown, TheKernelsPartIsAtMostOneUdpHop) {
   RandomStack stack{11};
   for (std::uint64_t tick = 0; tick < 20; ++tick) stack.add_tick(tick);
-  const auto ledger = stack.ledger();
-  for (const auto& tick : ledger.ticks)
+  const auto breakdown = stack.breakdown();
+  for (const auto& tick : breakdown.ticks)
     for (const auto& hop : tick.hops) {
       const auto kernel_ns = hop.parts_ns[static_cast<std::size_t>(Part::kernel)];
       EXPECT_LE(kernel_ns, 20'000);

@@ -1,6 +1,7 @@
 #pragma once
-/// The ledger of one tick: splits the time from the latched state to the arrival of its command into hops and
-/// parts, from the clock stamps of all processes. The parts of a tick add up to its latency exactly.
+/// Breakdown of the latency of a tick: splits the time from the latched state to the arrival of its command
+/// into hops and parts, from the clock stamps of all processes. The parts of a tick add up to its latency
+/// exactly.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -49,16 +50,16 @@ struct Isolated {
   std::int64_t udp_hop_ns = 0;                            ///< one hop of the raw UDP chain
 };
 
-struct Ledger {
+struct TickBreakdown {
   std::vector<TickPath> ticks;
   std::uint64_t left_out = 0;  ///< ticks without a complete path: lost, or overtaken by the next tick
 };
 
 /// @param processes  components of the stack; the first is the clock master
 /// @param records    of each component, in the order of `processes`
-[[nodiscard]] Ledger tick_ledger(const std::vector<runtime::ComponentSpec>& processes,
-                                 const std::vector<std::vector<bus::PathRecord>>& records,
-                                 const Isolated& isolated);
+[[nodiscard]] TickBreakdown break_down(const std::vector<runtime::ComponentSpec>& processes,
+                                       const std::vector<std::vector<bus::PathRecord>>& records,
+                                       const Isolated& isolated);
 
 /// Sum of each part over the hops of a tick.
 [[nodiscard]] PerPart sum_of_hops(const TickPath& path);

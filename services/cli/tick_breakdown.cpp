@@ -1,4 +1,4 @@
-#include "cli/tick_ledger.hpp"
+#include "cli/tick_breakdown.hpp"
 
 #include <algorithm>
 #include <map>
@@ -141,19 +141,19 @@ std::optional<TickPath> path_of(const std::vector<runtime::ComponentSpec>& proce
 
 }  // namespace
 
-Ledger tick_ledger(const std::vector<runtime::ComponentSpec>& processes,
-                   const std::vector<std::vector<bus::PathRecord>>& records, const Isolated& isolated) {
+TickBreakdown break_down(const std::vector<runtime::ComponentSpec>& processes,
+                         const std::vector<std::vector<bus::PathRecord>>& records, const Isolated& isolated) {
   const Records all{records};
   const auto state = topic_index(topics::state.description);
-  Ledger ledger;
+  TickBreakdown breakdown;
   for (const auto& record : records.front()) {
     if (record.topic != state || &record == &records.front().back()) continue;
     if (auto path = path_of(processes, all, record.tick, isolated))
-      ledger.ticks.push_back(std::move(*path));
+      breakdown.ticks.push_back(std::move(*path));
     else
-      ++ledger.left_out;
+      ++breakdown.left_out;
   }
-  return ledger;
+  return breakdown;
 }
 
 PerPart sum_of_hops(const TickPath& path) {
