@@ -14,17 +14,34 @@
 
 namespace crane::bridge {
 
+namespace {
+
+BoardError refused(const std::string& name, const std::string& why) {
+  return BoardError{"shared memory " + name + ": " + why};
+}
+BoardError of_another_user(const std::string& name) {
+  return refused(name, "belongs to another user: end the program of this user and remove /dev/shm" + name +
+                           ", or choose another --crane");
+}
+
+}  // namespace
+
 bool SharedFile::exists(const std::string& name) {
   const int file = ::shm_open(name.c_str(), O_RDONLY, 0);
   if (file >= 0) ::close(file);
-  return file >= 0;
+  return file >= 0 || errno != ENOENT;
 }
 
 SharedFile::SharedFile(std::string name) : name_{std::move(name)} {
-  constexpr mode_t kEverybody = 0666;
-  file_ = ::shm_open(name_.c_str(), O_RDWR | O_CREAT, kEverybody);
-  if (file_ < 0) throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
-  ::fchmod(file_, kEverybody);  // independent of the umask of the process that creates it
+  constexpr mode_t kOwnerOnly = S_IRUSR | S_IWUSR;
+  file_ = ::shm_open(name_.c_str(), O_RDWR | O_CREAT, kOwnerOnly);
+  if (file_ < 0) throw errno == EACCES ? of_another_user(name_) : refused(name_, std::strerror(errno));
+  struct stat status {};
+  // The owner of a file can change it at any time. A file of an earlier version has another mode.
+  if (::fstat(file_, &status) == 0 && status.st_uid == ::geteuid() && ::fchmod(file_, kOwnerOnly) == 0)
+    return;
+  ::close(file_);
+  throw of_another_user(name_);
 }
 
 SharedFile::~SharedFile() {
@@ -48,9 +65,9 @@ std::size_t SharedFile::size() const {
 
 void* SharedFile::map(std::size_t wanted) {
   if (size() < wanted && ::ftruncate(file_, static_cast<off_t>(wanted)) != 0)
-    throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
+    throw refused(name_, std::strerror(errno));
   void* memory = ::mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-  if (memory == MAP_FAILED) throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
+  if (memory == MAP_FAILED) throw refused(name_, std::strerror(errno));
   memory_ = memory;
   mapped_ = wanted;
   return memory_;

@@ -38,9 +38,9 @@ class DiscoveryAttack : public testing::Test {
     options.ledger = nullptr;
     return options;
   }
-  void start(const stack::LaunchOptions& options) {
+  void start(const stack::LaunchOptions& options, stack::Plant plant = stack::Plant::simulated) {
     stack_.reset();
-    stack_.emplace(options);
+    stack_.emplace(options, plant);
     ASSERT_TRUE(stack_->until([this] { return is(crane_STATE_LOCKED); }, 10s));
     stack_->listen(1s);  // the supervisor refuses a reset in its first second
   }

@@ -126,20 +126,38 @@ Bytes end_of_participant(const GuidPrefix& prefix) {
   return message;
 }
 
-Bytes heartbeat(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number) {
+Bytes heartbeat(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t first, std::uint64_t last) {
+  static std::uint32_t count = 0x7F000000;  // a later count than that of the writer
   Bytes content;
   put(content, kNoEntity);
   put(content, writer);
-  put_number(content, number);
-  put_number(content, number);
-  put(content, 0x7F000000, 4);  // a later count than that of the writer
+  put_number(content, first);
+  put_number(content, last);
+  put(content, ++count, 4);
   auto message = header(prefix);
   append(message, kHeartbeat, kFinal, content);
   return message;
 }
+Bytes heartbeat(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number) {
+  return heartbeat(prefix, writer, number, number);
+}
 
-Bytes fragment(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number) {
-  constexpr std::uint64_t kSample_bytes = 0x7FFFFFFF, kFragment_bytes = 1024;
+Bytes gap(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t first, std::uint64_t next,
+          std::uint32_t bits) {
+  Bytes content;
+  put(content, kNoEntity);
+  put(content, writer);
+  put_number(content, first);
+  put_number(content, next);
+  put(content, bits, 4);
+  content.insert(content.end(), (bits + 31) / 32 * 4, 0xFF);
+  auto message = header(prefix);
+  append(message, kGap, 0, content);
+  return message;
+}
+
+Bytes fragment(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number,
+               const Fragment& fragment) {
   constexpr std::uint8_t kDataFragment = 0x16;
   Bytes content;
   put(content, 0, 2);
@@ -147,14 +165,24 @@ Bytes fragment(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t n
   put(content, kNoEntity);
   put(content, writer);
   put_number(content, number);
-  put(content, 1, 4);  // number of the first fragment
-  put(content, 1, 2);  // fragments in this submessage
-  put(content, kFragment_bytes, 2);
-  put(content, kSample_bytes, 4);
-  content.insert(content.end(), kFragment_bytes, 0);
+  put(content, fragment.number, 4);
+  put(content, fragment.count, 2);
+  put(content, fragment.bytes, 2);
+  put(content, fragment.sample_bytes, 4);
+  content.insert(content.end(), fragment.payload.begin(), fragment.payload.end());
   auto message = header(prefix);
   append(message, kDataFragment, 0, content);
   return message;
+}
+Bytes fragment(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number) {
+  return fragment(prefix, writer, number, {.sample_bytes = 0x7FFFFFFF});
+}
+
+Bytes source(const GuidPrefix& prefix) {
+  Bytes content(4);
+  const auto own = header(prefix);
+  content.insert(content.end(), own.begin() + 4, own.end());  // version, vendor, prefix
+  return content;
 }
 
 Bytes repeat_all(Bytes entities, std::uint64_t first, std::uint32_t count) {

@@ -54,14 +54,7 @@ TEST_P(CopiedGuid, StopsAnArmedCraneInsteadOfMovingIt) {
 std::vector<Route> all_routes() {
   std::vector<Route> routes;
   for (const char* vendor : {"cyclone", "fastdds"})
-    for (const auto& [topic, reader] : {std::pair{"command", "plant"},
-                                        {"state", "supervisor"},
-                                        {"reference", "tracking"},
-                                        {"tracking", "friction_compensation"},
-                                        {"anti_swing", "friction_compensation"},
-                                        {"demand", "supervisor"},
-                                        {"supervisor", "trajectory_planner"}})
-      routes.push_back({topic, reader, vendor});
+    for (const auto& [topic, reader] : kLoopRoutes) routes.push_back({topic, reader, vendor});
   return routes;
 }
 INSTANTIATE_TEST_SUITE_P(OnEveryLoopTopic, CopiedGuid, testing::ValuesIn(all_routes()), [](const auto& test) {

@@ -64,13 +64,15 @@ struct SharedLines {
 };
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
-/// A named shared memory with one owner per role. The kernel releases the role when its process ends for any
-/// reason.
+/// A named shared memory of one user (mode 0600) with one owner per role. The kernel releases the role when
+/// its process ends for any reason.
 class SharedFile {
  public:
   enum class Role : std::uint8_t { rig, bridge };
+  /// @return true also for the file of another user
   [[nodiscard]] static bool exists(const std::string& name);
-  /// Opens `name`, and creates it when it does not exist. @throws BoardError
+  /// Opens `name`, and creates it when it does not exist. @throws BoardError, also when the file belongs to
+  /// another user
   explicit SharedFile(std::string name);
   ~SharedFile();
   SharedFile(const SharedFile&) = delete;
