@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "crane/bridge/bridge.hpp"
+#include "crane/bus/ledger.hpp"
 #include "crane/bus/seal.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "stack/stack.hpp"
@@ -41,7 +42,8 @@ Bench::Bench(Setting setting)
   specs.front().make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
     return std::make_unique<bridge::Bridge>(context, std::make_unique<FaultyBoard>(building_->rig_));
   };
-  stack_.emplace(specs, setting_.configured, *setting_.controller);
+  stack_.emplace(specs, setting_.configured, *setting_.controller,
+                 setting_.ledger ? bus::Ledger::create() : nullptr);
   bus::set_wire(*stack_->network(), [this](const auto& topic, const void* sample,
                                            const bus::Deliver& deliver) { carry(topic, sample, deliver); });
   bus_.emplace(runtime::memory_options(stack_->network(), "operator", crane_SOURCE_OPERATOR));

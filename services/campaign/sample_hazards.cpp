@@ -1,4 +1,4 @@
-/// Hazards 5 to 10 and 47: processes that publish wrong samples, and foreign writers.
+/// Hazards 5 to 10, 47 and 48: processes that publish wrong samples, and foreign writers.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -175,15 +175,20 @@ Injection corrupted(Bench& bench, Random& random) {
   return injection;
 }
 
+/// Expects that the readers of the topic detect a second writer.
+Injection second_writer_of(const Description& topic) {
+  const bool command = &topic == &topics::command.description;
+  return {.expectation = {
+              .reasons = {command ? latched(crane_LATCH_SECOND_WRITER) : because(crane_CAUSE_SECOND_WRITER)},
+              .detection_ms = 20}};
+}
+
 /// A foreign writer with plausible samples and its own start-up number.
 Injection intruder(Bench& bench, const Description& topic, crane_Source source, Random& random) {
   auto foreign_writer =
       std::make_shared<ForeignWriter>(bench, source, static_cast<std::uint32_t>(2 + random.pick(900)));
   bench.every_tick = [&bench, foreign_writer, &topic] { foreign_writer->publish_plausible(topic, bench); };
-  const bool command = &topic == &topics::command.description;
-  return {.expectation = {
-              .reasons = {command ? latched(crane_LATCH_SECOND_WRITER) : because(crane_CAUSE_SECOND_WRITER)},
-              .detection_ms = 20}};
+  return second_writer_of(topic);
 }
 
 Injection second_writer(Bench& bench, Random& random) {
@@ -195,6 +200,24 @@ Injection unauthorised(Bench& bench, Random& random) {
   static constexpr std::array kWrong{crane_SOURCE_NONE, crane_SOURCE_OPERATOR, crane_SOURCE_MONITOR,
                                      crane_SOURCE_TWIN};
   return intruder(bench, any_loop_topic(random), kWrong[random.pick(kWrong.size())], random);
+}
+
+void with_ledger(Setting& setting, Random& /*random*/) { setting.ledger = true; }
+
+/// Forged samples of the genuine writer, each before the genuine one. The stack has a ledger.
+Injection forged_in_its_name(Bench& bench, Random& random) {
+  static const std::array<const Description*, 3> kTopics{
+      &topics::state.description, &topics::demand.description, &topics::command.description};
+  const auto& topic = *kTopics[random.pick(kTopics.size())];
+  bench.wire = on(topic, [&topic, axis = bench.axis()](const void* sample, const bus::Deliver& deliver) {
+    StoredSample forged{topic};
+    forged.keep(sample);
+    forged.change_value(axis);
+    forged.seal();
+    deliver(forged.look());
+    deliver(sample);
+  });
+  return second_writer_of(topic);
 }
 
 /// The clock of the bridge stands still, jumps, or runs at another rate.
@@ -222,6 +245,11 @@ constexpr std::array kSampleHazards{
     Hazard{.number = 9, .name = "second writer", .inject = second_writer},
     Hazard{.number = 10, .name = "unauthorised writer", .inject = unauthorised},
     Hazard{.number = 47, .name = "sample times of the bridge wrong", .inject = wrong_times},
+    Hazard{.number = 48,
+           .name = "samples forged under their writer's name, with a ledger",
+           .every = 5,
+           .prepare = with_ledger,
+           .inject = forged_in_its_name},
 };
 
 }  // namespace

@@ -30,6 +30,7 @@ struct Setting {
   std::array<bool, 3> selected{};  ///< axes that move
   std::array<double, 3> target{};  ///< m, rad, m of cable
   std::size_t axis = 0;            ///< axis of the fault
+  bool ledger = false;             ///< true: the processes have a ledger (crane/bus/ledger.hpp)
 };
 
 inline constexpr std::uint64_t kSettings = 12;

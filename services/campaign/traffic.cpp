@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "crane/bus/seal.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "crane/runtime/node.hpp"
 
@@ -55,6 +56,11 @@ void StoredSample::change_value(std::size_t axis) {
     static_cast<msg::Demand*>(sample)->total_v[axis] += kPush_v;
   if (topic_.name == topics::state.description.name)
     static_cast<msg::State*>(sample)->trolley_position_m += 0.5;
+}
+
+void StoredSample::seal() {
+  const auto header = *reinterpret_cast<const msg::Header*>(bytes_.data());
+  bus::seal(topic_, bytes_.data(), header.source, header.epoch);
 }
 
 crane_Source right_source(const topics::Description& topic) {

@@ -23,6 +23,8 @@ class StoredSample {
   void flip(std::size_t bit);
   /// Changes a voltage or a position, the worst effect of a wrong bit.
   void change_value(std::size_t axis);
+  /// Gives the sample a correct CRC.
+  void seal();
 
  private:
   const topics::Description& topic_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "crane/runtime/in_process.hpp"
 
@@ -13,8 +14,8 @@ constexpr std::int64_t kShortestStep_ns = 100'000;
 }  // namespace
 
 VirtualStack::VirtualStack(std::span<const runtime::ComponentSpec> specs, const configuration::Rig& rig,
-                           const control::Controller& controller)
-    : rig_{rig}, controller_{controller}, network_{bus::make_memory_network()} {
+                           const control::Controller& controller, std::shared_ptr<bus::Ledger> ledger)
+    : rig_{rig}, controller_{controller}, ledger_{std::move(ledger)}, network_{bus::make_memory_network()} {
   for (const auto& spec : specs) {
     slots_.push_back({.spec = spec, .bus = nullptr, .hosted = nullptr});
     start_in(slots_.back(), kFirstEpoch);
@@ -24,6 +25,7 @@ VirtualStack::VirtualStack(std::span<const runtime::ComponentSpec> specs, const 
 void VirtualStack::start_in(Slot& slot, std::uint32_t epoch) {
   auto options = runtime::memory_options(network_, std::string{slot.spec.program}, slot.spec.source);
   options.epoch = epoch;
+  options.ledger = ledger_;
   slot.bus = std::make_unique<bus::Bus>(options);
   slot.hosted = std::make_unique<runtime::HostedComponent>(*slot.bus, slot.spec, rig_, controller_,
                                                            runtime::Clock::realtime);

@@ -14,8 +14,9 @@ namespace crane::campaign {
 class VirtualStack {
  public:
   /// `rig` and `controller` must outlive the stack.
+  /// @param ledger  of all components; null: none
   VirtualStack(std::span<const runtime::ComponentSpec> specs, const configuration::Rig& rig,
-               const control::Controller& controller);
+               const control::Controller& controller, std::shared_ptr<bus::Ledger> ledger);
 
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
   [[nodiscard]] std::int64_t now_ns() const { return now_ns_; }
@@ -43,6 +44,7 @@ class VirtualStack {
 
   const configuration::Rig& rig_;
   const control::Controller& controller_;
+  std::shared_ptr<bus::Ledger> ledger_;
   std::shared_ptr<bus::MemoryNetwork> network_;
   std::vector<Slot> slots_;
   std::int64_t now_ns_ = 1'000'000'000;

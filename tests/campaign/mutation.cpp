@@ -117,7 +117,8 @@ std::vector<Need> needs() {
           {bridge_latch_is_kept, {15, 41}},
           {bus_checksum, {8}},
           {bus_source, {32}},
-          {bus_one_writer, {9}}};
+          {bus_one_writer, {9}},
+          {bus_ledger, {48}}};
 }
 
 /// Tests of the protections that no run can prove necessary, because another protection detects the same

@@ -4,6 +4,7 @@
 #include "crane/bus/cdr.hpp"
 #include "crane/bus/path_stamps.hpp"
 #include "crane/bus/seal.hpp"
+#include "crane/protection.hpp"
 #include "endpoint.hpp"
 
 namespace crane::bus {
@@ -90,7 +91,8 @@ bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
     }
     if (!local.valid && info == nullptr) continue;
     if (local.valid && state.ledger != nullptr)
-      local.entered = state.ledger->contains(ledger_entry(state.topic, sample, state.messages_version));
+      local.entered = state.ledger->contains(ledger_entry(state.topic, sample, state.messages_version)) ||
+                      !protection::enabled(protection::Protection::bus_ledger);
     if (info != nullptr) *info = local;
     if (local.valid) {
       ++state.counts.taken;

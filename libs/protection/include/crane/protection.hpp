@@ -10,7 +10,7 @@
 namespace crane::protection {
 
 // Supervisor: command echo, gate, requests and brakes; supervisor/src/rules.cpp names the rules.
-// Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: checksum and writer binding.
+// Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: checksum, writer binding, ledger.
 #define CRANE_PROTECTIONS(X)   \
   X(supervisor_echo)           \
   X(supervisor_sole)           \
@@ -45,7 +45,8 @@ namespace crane::protection {
   X(bus_checksum)              \
   X(bus_checksum_of_topic)     \
   X(bus_source)                \
-  X(bus_one_writer)
+  X(bus_one_writer)            \
+  X(bus_ledger)
 
 enum class Protection : std::uint8_t {
 #define CRANE_DECLARE_PROTECTION(name) name,
