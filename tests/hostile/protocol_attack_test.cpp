@@ -203,7 +203,7 @@ class ProtocolAttack : public DiscoveryAttack,
     stack_->listen(300ms);
   }
   /// Gives all threads of the attacked process ordinary scheduling.
-  void end_real_time() const {
+  void end_real_time() {
     const auto process = std::to_string(stack_->children().pid_of(reader()).value());
     for (const auto& thread : std::filesystem::directory_iterator{"/proc/" + process + "/task"}) {
       constexpr sched_param kOrdinary{};
