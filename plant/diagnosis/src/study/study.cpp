@@ -64,6 +64,14 @@ Effects moved(Effects effects, const VectorXd& step) {
   return effects;
 }
 
+double difference_step(const FreeParameter& p, double value) {
+  constexpr double kShare = 0.3;
+  const double step = kShare * p.step;
+  if (value + step <= p.high) return step;
+  if (value - step >= p.low) return -step;
+  return p.high - value > value - p.low ? p.high - value : p.low - value;
+}
+
 Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded, const Accuracy& accuracy)
     : natural_radps_{diagnosis::natural_radps(rig)},
@@ -212,10 +220,10 @@ Study::Slopes Study::slopes(const Effects& effects, const Evaluation& at) const 
       const FreeParameter& p = candidate.parameters[i];
       Effects moved = effects;
       double& value = moved[e].values[i];
-      const double step = value + p.step <= p.high ? p.step : -p.step;
-      value += 0.3 * step;
+      const double step = difference_step(p, value);
+      value += step;
       const Crane crane = with(moved);
-      add_slope(crane, at, 0.3 * step, {candidate.drive, candidate.load}, result);
+      add_slope(crane, at, step, {candidate.drive, candidate.load}, result);
     }
   }
   return result;

@@ -255,6 +255,8 @@ class Study {
 
 /// Adds `step` to the values and clamps them to their bounds.
 [[nodiscard]] Effects moved(Effects effects, const Eigen::VectorXd& step);
+/// Step of the finite difference of a fit, with its sign: the parameter stays within its bounds.
+[[nodiscard]] double difference_step(const FreeParameter& p, double value);
 /// Loss of each block.
 [[nodiscard]] Blocks blocks_of(const Problem& problem, const Fits& fits);
 [[nodiscard]] double sum(const Blocks& blocks);
