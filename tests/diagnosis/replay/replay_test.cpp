@@ -244,5 +244,40 @@ TEST(FrictionStep, StopsAndReversesInsideOneStepAsInManySmallOnes) {
   }
 }
 
+/// The same run as the sensors report it.
+Run reported(Run run, const configuration::Rig& rig) {
+  plant::Model sensing(rig.plant, rig.terms, rig.period_s);
+  for (std::size_t row = 0; row < run.rows(); ++row) {
+    State state{.cable_m = run.cable_m[row]};
+    for (const Output output : kAllOutputs) position_of(state, output) = run.measured[output][row];
+    const plant::Measurement measured = sensing.measure(state);
+    for (const Output output : kAllOutputs) run.measured[output][row] = measured_of(measured, output);
+  }
+  return run;
+}
+
+class ErrorOfTheSwingSensor : public testing::TestWithParam<plant::TermSetting> {};
+
+/// The load pulls at the drives. A sensor error that is not inverted would change this force, and a wrong
+/// payload would explain it.
+TEST_P(ErrorOfTheSwingSensor, ChangesTheSimulationOfTheDrivesLessThanAnAccuratePayload) {
+  constexpr double kHeavy = 4, kAccuracy = 0.02;
+  auto exact = tower_with({}), lighter = exact, erroneous = tower_with({GetParam()});
+  for (auto* rig : {&exact, &lighter, &erroneous}) rig->plant.load_mass_kg *= kHeavy;
+  lighter.plant.load_mass_kg *= 1 - kAccuracy;
+  const diagnosis::Run truth = integrated(exact, 8);
+  const double by_payload = worst(truth, lighter, Part::drive),
+               by_sensor = worst(reported(truth, erroneous), erroneous, Part::drive);
+  EXPECT_LT(by_sensor, by_payload) << "m or rad";
+}
+
+INSTANTIATE_TEST_SUITE_P(AllKinds, ErrorOfTheSwingSensor,
+                         testing::Values(plant::TermSetting{"swing_misalignment", "", {{"angle_rad", 0.36}}},
+                                         plant::TermSetting{"swing_delay", "", {{"delay_s", 0.135}}},
+                                         plant::TermSetting{"swing_scale", "radial", {{"factor", 1.3}}},
+                                         plant::TermSetting{"swing_offset", "radial", {{"offset_rad", 0.05}}},
+                                         plant::TermSetting{"swing_moving_average", "", {{"window_s", 0.2}}}),
+                         [](const auto& each) { return each.param.name; });
+
 }  // namespace
 }  // namespace crane::diagnosis

@@ -26,6 +26,40 @@ Crane loaded_as(const Run& run, Crane crane) {
   return crane;
 }
 
+/// Delay of the reported behind the true swing, s: of a swing that increases linearly, after the memory of
+/// the sensor has passed. 0 for drives.
+std::array<double, kOutputs> swing_delays_s(const Crane& crane, double period_s) {
+  constexpr double kMemory_s = 1;  // the longest delay and the longest mean, 0.5 s each
+  constexpr double kRate_radps = 0.1;
+  std::array<double, kOutputs> delays_s{};
+  for (const Output output : {kRadialSwing, kTangentialSwing}) {
+    plant::Model sensing(crane.parameters, crane.terms, period_s);
+    const auto reported_at = [&](double time_s) {
+      plant::State at;
+      position_of(at, output) = kRate_radps * time_s;
+      return measured_of(sensing.measure(at), output);
+    };
+    const double at_rest = reported_at(0);
+    double time_s = 0, last = at_rest, reported = at_rest;
+    while (time_s < kMemory_s + period_s) {
+      last = reported;
+      reported = reported_at(time_s += period_s);
+    }
+    const double rate_radps = (reported - last) / period_s;
+    if (rate_radps > 0) delays_s[output] = std::max(0.0, time_s - (reported - at_rest) / rate_radps);
+  }
+  return delays_s;
+}
+
+/// Adds to each value the error that is reported `ticks` later, interpolated linearly. @pre ticks >= 0
+void add_earlier(const std::vector<double>& errors, double ticks, std::vector<double>& values) {
+  const double whole = std::floor(ticks), share = ticks - whole;
+  const auto later = static_cast<std::size_t>(whole);
+  const auto error_at = [&](std::size_t row) { return errors[std::min(row, errors.size() - 1)]; };
+  for (std::size_t row = 0; row < values.size(); ++row)
+    values[row] += (1 - share) * error_at(row + later) + share * error_at(row + later + 1);
+}
+
 bool has_inner_coordinates(const Crane& crane) {
   return plant::Model(crane.parameters, crane.terms).inner_coordinates() > 0;
 }
@@ -77,13 +111,15 @@ MeasuredKinematics Replay::CraneOnRun::measured_mid_row(std::size_t row) const {
   return at;
 }
 
-/// Fixed-point inversion of the sensor terms. Drives: kRounds rounds, to 1e-6 of the encoder's scale. Swing:
-/// one round, because repeated inversion of a delay amplifies noise.
+/// Fixed-point inversion of the sensor terms, to 1e-6 of an encoder's scale. The error of a swing is added at
+/// the time at which its cause has happened, the delay of the sensor earlier: without the shift, repeated
+/// inversion of a delay amplifies noise.
 void Replay::CraneOnRun::invert_sensors() {
   constexpr int kRounds = 5;
   const Run& run = source.run;
   const std::array<std::vector<double>, kOutputs>& measured = source.on_grid;
-  std::array<std::vector<double>, kOutputs> values = measured;
+  const std::array<double, kOutputs> delays_s = swing_delays_s(crane, run.period_s);
+  std::array<std::vector<double>, kOutputs> values = measured, errors = measured;
   for (int round = 0; round < kRounds; ++round) {
     plant::Model fresh(crane.parameters, crane.terms, run.period_s);
     for (std::size_t k = 0; k < run.rows(); ++k) {
@@ -93,9 +129,10 @@ void Replay::CraneOnRun::invert_sensors() {
       at.cable_m = run.cable_m[k];
       const plant::Measurement reported = fresh.measure(at);
       for (const Output output : kAllOutputs)
-        if (run.has(output) && (round == 0 || output == kTrolleyPosition || output == kSlewAngle))
-          values[output][k] += measured[output][k] - measured_of(reported, output);
+        if (run.has(output)) errors[output][k] = measured[output][k] - measured_of(reported, output);
     }
+    for (const Output output : kAllOutputs)
+      if (run.has(output)) add_earlier(errors[output], delays_s[output] / run.period_s, values[output]);
   }
   for (const Output output : kAllOutputs)
     if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);

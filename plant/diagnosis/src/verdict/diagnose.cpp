@@ -151,7 +151,7 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const StatedAccuracy& 
   Hypotheses base = found;
   base.best = found.base;
   study.whiten_with(found.base.nuisance);
-  const bool nothing = judge(study, base, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
+  const bool nothing = judge(study, base, base.best, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
   study.whiten_with(found.best.nuisance);
   return nothing;
 }
@@ -163,16 +163,16 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   request.progress(0.02, "noise and disturbance");
   study.learn_disturbance();
   Hypotheses found = searched(study, request);
-  request.progress(0.85, "what is left");
-  const StatedAccuracy accuracy(rig, request.accuracy);
-  auto [result, rival, within_accuracy] = judge(study, found, accuracy, losing, request.seed);
-  result.excitation = found.excitation;
   Fitted best = found.best;
   if (!best.effects.empty()) {
-    request.progress(0.88, "how well the data know it");
+    request.progress(0.85, "how well the data know it");
     best = with_intervals(study, best, request.seed);
-    give_values(best, within_accuracy, result);
   }
+  request.progress(0.88, "what is left");
+  const StatedAccuracy accuracy(rig, request.accuracy);
+  auto [result, rival, within_accuracy] = judge(study, found, best, accuracy, losing, request.seed);
+  result.excitation = found.excitation;
+  give_values(best, within_accuracy, result);
   if (result.verdict == Verdict::none) {
     best = found.base;
     study.whiten_with(best.nuisance);

@@ -35,15 +35,15 @@ std::string described(const SwingPattern& pattern) {
 
 class Judgement {
  public:
-  Judgement(const Study& study, const Hypotheses& hypotheses, const StatedAccuracy& accuracy,
-            const std::vector<LosingEncoder>& losing, std::uint64_t seed)
+  Judgement(const Study& study, const Hypotheses& hypotheses, const Fitted& with_intervals,
+            const StatedAccuracy& accuracy, const std::vector<LosingEncoder>& losing, std::uint64_t seed)
       : study_(study),
         all_(hypotheses),
         best_(hypotheses.best),
         accuracy_(accuracy),
         losing_(losing),
         seed_(seed),
-        within_(accuracy.contains_each(study, best_.effects)) {
+        within_(accuracy.contains_each(study, with_intervals)) {
     if (std::ranges::find(within_, false) == within_.end()) test_drives();
     for (std::size_t i = 0; i < within_.size(); ++i)
       if (!within_[i]) causes_.push_back(best_.effects[i]);
@@ -224,9 +224,9 @@ void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.sentence = sentence_of(diagnosis);
 }
 
-Judged judge(const Study& study, const Hypotheses& hypotheses, const StatedAccuracy& accuracy,
-             const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
-  return Judgement(study, hypotheses, accuracy, losing, seed).run();
+Judged judge(const Study& study, const Hypotheses& hypotheses, const Fitted& best,
+             const StatedAccuracy& accuracy, const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
+  return Judgement(study, hypotheses, best, accuracy, losing, seed).run();
 }
 
 }  // namespace crane::diagnosis

@@ -16,8 +16,10 @@ struct Judged {
 /// @param why variable on which the remaining residual depends
 void doubt(Diagnosis& diagnosis, const std::string& why);
 
+/// @param best  hypotheses.best with the values and standard deviations of with_intervals()
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
-[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, const StatedAccuracy& accuracy,
-                           const std::vector<LosingEncoder>& losing, std::uint64_t seed);
+[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, const Fitted& best,
+                           const StatedAccuracy& accuracy, const std::vector<LosingEncoder>& losing,
+                           std::uint64_t seed);
 
 }  // namespace crane::diagnosis

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "rules.hpp"
 #include "search/parts.hpp"
 #include "study/inaccuracies.hpp"
 
@@ -47,11 +48,13 @@ std::vector<double> StatedAccuracy::limits_of(const Candidate& candidate) const 
   return largest_inaccuracy(candidate.cause, candidate.axis, rig_, accuracy_);
 }
 
-bool StatedAccuracy::contains_values(const Effect& effect) const {
+bool StatedAccuracy::contains_values(const Effect& effect, std::span<const double> std_dev) const {
   std::vector<double> limits = limits_of(*effect.candidate);
   if (is_confounded_with_a_scale(*effect.candidate)) limits[0] += accuracy_.values;
   for (std::size_t i = 0; i < limits.size(); ++i)
-    if (std::abs(effect.values[i] - effect.candidate->parameters[i].null) > limits[i]) return false;
+    if (std::abs(effect.values[i] - effect.candidate->parameters[i].null) >
+        limits[i] + rules::kBeyondAccuracy * std_dev[i])
+      return false;
   return true;
 }
 
@@ -69,7 +72,8 @@ std::vector<Crane> StatedAccuracy::inaccurate_cranes(const Study& study, const C
   return cranes;
 }
 
-std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Effects& effects) const {
+std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted& fitted) const {
+  const Effects& effects = fitted.effects;
   if (effects.empty()) return {};
   const Crane rig_file = study.with({}), extended = study.with(effects);
   const std::vector<Crane> inaccurate = inaccurate_cranes(study, rig_file);
@@ -99,11 +103,14 @@ std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Effect
     }
   }
   std::vector<bool> contained;
-  for (std::size_t i = 0; i < effects.size(); ++i)
+  std::span<const double> std_dev = fitted.std_dev;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
     contained.push_back(limits_of(*effects[i].candidate).empty()
                             ? is_error_of_zero(study, effects[i]) ||
                                   std::ranges::equal(by_effect[i], largest, std::less_equal{})
-                            : contains_values(effects[i]));
+                            : contains_values(effects[i], std_dev));
+    std_dev = std_dev.subspan(effects[i].values.size());
+  }
   return contained;
 }
 

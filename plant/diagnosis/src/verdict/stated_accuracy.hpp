@@ -2,6 +2,7 @@
 /// Effects and patterns within the stated accuracy of the rig file.
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "crane/diagnosis/accuracy.hpp"
@@ -17,12 +18,14 @@ class StatedAccuracy {
   StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy);
 
   /// True for each effect within the accuracy of the rig file. If the accuracy of its quantity is stated, the
-  /// effect is within the accuracy when its values are; the error of a scale and that of a confounded
-  /// quantity add. Any other effect is within the accuracy when it changes the simulation of no output more
-  /// than the largest stated inaccuracy of a drive, a position or the swing scale changes the simulation of
-  /// the rig file, or when it is a swing offset of at most half a resolution of the sensor. A change is an
-  /// rms in the windows of the training data and, for a swing, over whole runs, from the same starts.
-  [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Effects& effects) const;
+  /// effect is within the accuracy when the 95 % intervals of all its values contain a value that is; the
+  /// error of a scale and that of a confounded quantity add. Any other effect is within the accuracy when it
+  /// changes the simulation of no output more than the largest stated inaccuracy of a drive, a position or
+  /// the swing scale changes the simulation of the rig file, or when it is a swing offset of at most half a
+  /// resolution of the sensor. A change is an rms in the windows of the training data and, for a swing, over
+  /// whole runs, from the same starts.
+  /// @param fitted with std_dev from with_intervals()
+  [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
   /// Share of a swing that is within the accuracy: the errors of two scales, of the swing and of the position
@@ -42,7 +45,8 @@ class StatedAccuracy {
   /// Stated accuracy of the leading parameters; empty if its quantity has none.
   [[nodiscard]] std::vector<double> limits_of(const Candidate& candidate) const;
   /// @pre the quantity of the effect has a stated accuracy
-  [[nodiscard]] bool contains_values(const Effect& effect) const;
+  /// @param std_dev of its values
+  [[nodiscard]] bool contains_values(const Effect& effect, std::span<const double> std_dev) const;
   /// Cranes whose rig file is wrong by one stated inaccuracy each.
   [[nodiscard]] std::vector<Crane> inaccurate_cranes(const Study& study, const Crane& crane) const;
 
