@@ -26,7 +26,7 @@ class LateStack {
         controller_{runtime::chosen_controller(controller, rig_)},
         writer_{file},
         channels_{recording::add_topic_channels(writer_)},
-        stack_{specs(), rig_, controller_},
+        stack_{specs(), rig_, controller_, nullptr},
         bus_{runtime::memory_options(stack_.network(), "operator", crane_SOURCE_OPERATOR)},
         operator_{bus_, "operator", 1},
         jogs_{bus_.publisher(topics::jog)} {
