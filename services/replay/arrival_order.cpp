@@ -80,6 +80,7 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   missing_demand_ = 0;
   derived_.clear();
   next_jog_ = lost_jogs_of_ = 0;
+  lost_jog_.reset();
   assumed_ = 0;
   has_earlier_ = false;
   bool begins = true;
@@ -267,15 +268,19 @@ std::vector<ArrivalOrder::Jog>::const_iterator ArrivalOrder::first_jog_of(std::u
   return std::ranges::find_if(jogs_, [&](const Jog& one) { return one.sample.request_id == request_id; });
 }
 
-/// The recorder discovers the writer of an operator later than the supervisor does. Until then, the
-/// supervisor receives a sample in every tick in which its status shows a deflection.
+/// The recorder discovers the writer of an operator later than the supervisor does, or not before its program
+/// ends. Until then, the supervisor receives a sample in every tick in which its status shows a deflection.
+/// The program releases the stick when it ends.
 void ArrivalOrder::add_lost_jog(RecordedTick& tick, const msg::SupervisorStatus& status) {
   auto lost = jog_behind(status);
+  if (!lost && lost_jog_) lost = released(*lost_jog_, status);
   if (!lost) return;
   const auto first = first_jog_of(lost->request_id);
+  lost_jog_.reset();
   if (first - jogs_.begin() < static_cast<std::ptrdiff_t>(next_jog_)) return;  // a sample has been delivered
   if (first != jogs_.end()) lost->header.epoch = first->sample.header.epoch;
   tick.inputs.push_back({&topics::jog.description, published(topics::jog, *lost)});
+  if (lost->engaged) lost_jog_ = *lost;
   if (std::exchange(lost_jogs_of_, lost->request_id) != lost->request_id)
     derived_.push_back("tick " + std::to_string(tick.number) + ": first samples of crane/jog of client '" +
                        lost->client + "'");

@@ -64,7 +64,7 @@ class ArrivalOrder {
   void add_requests(std::uint64_t tick, const msg::SupervisorStatus& status, const Between& times,
                     std::vector<Received>& inputs);
   void add_jogs(RecordedTick& tick, const msg::SupervisorStatus& status, std::int64_t decided_ns);
-  /// Adds a sample of the stick before the first recorded one of its session.
+  /// Adds a sample of the stick before the first recorded one of its session, also if none is recorded.
   void add_lost_jog(RecordedTick& tick, const msg::SupervisorStatus& status);
   [[nodiscard]] std::vector<Jog>::const_iterator first_jog_of(std::uint64_t request_id) const;
 
@@ -75,7 +75,8 @@ class ArrivalOrder {
   std::map<std::uint64_t, std::vector<Replied>> replies_;          ///< of the supervisor, by tick
   std::vector<Jog> jogs_;
   std::size_t next_jog_ = 0;
-  std::uint64_t lost_jogs_of_ = 0;  ///< request of the last session with derived samples of the stick
+  std::uint64_t lost_jogs_of_ = 0;    ///< request of the last session with derived samples of the stick
+  std::optional<msg::Jog> lost_jog_;  ///< the last derived sample, if it deflects the stick
   std::map<std::uint64_t, Gathered> ticks_;           ///< not visited yet
   std::map<std::string_view, std::uint32_t> epochs_;  ///< of the writers, by topic
   std::optional<msg::SupervisorStatus> before_;       ///< status of the previous step of the supervisor

@@ -72,6 +72,14 @@ std::optional<msg::Jog> jog_behind(const msg::SupervisorStatus& status) {
   return jog;
 }
 
+msg::Jog released(msg::Jog jog, const msg::SupervisorStatus& status) {
+  jog.header.tick = status.header.tick;
+  jog.header.sample_time_ns = status.header.sample_time_ns;
+  jog.engaged = false;
+  std::ranges::fill(jog.deflection, 0);
+  return jog;
+}
+
 std::string in_words(const msg::Request& request) {
   constexpr std::array kNames{"none",    "reset", "arm",      "disarm", "move", "stop", "e-stop",
                               "advance", "kick",  "shutdown", "follow", "home", "jog",  "mode"};

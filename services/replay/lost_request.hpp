@@ -21,6 +21,8 @@ namespace crane::replay {
 /// @return the sample with the deflection of the status; nothing when the stick has none. In maintenance, the
 /// status does not show the deflection of the sample
 [[nodiscard]] std::optional<msg::Jog> jog_behind(const msg::SupervisorStatus& status);
+/// The sample with which the program of `jog` releases the stick, at this status.
+[[nodiscard]] msg::Jog released(msg::Jog jog, const msg::SupervisorStatus& status);
 
 /// "move of client 'crane 4711'"
 [[nodiscard]] std::string in_words(const msg::Request& request);

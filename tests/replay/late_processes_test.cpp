@@ -47,12 +47,12 @@ class LateStack {
   }
   void ask(const stack::OperatorRequest& wanted) { last_id_ = operator_.send(wanted); }
   /// Deflects the stick of the session that was requested last, for one tick.
-  void deflect(double slew) {
+  void deflect(double slew, bool engaged = true) {
     msg::Jog jog{};
     jog.header.tick = newest_tick_;
     jog.request_id = last_id_;
     runtime::assign(jog.client, "operator");
-    jog.engaged = true;
+    jog.engaged = engaged;
     jog.deflection[1] = slew;
     ASSERT_TRUE(jogs_.publish(jog));
     run(0.01);
@@ -151,8 +151,8 @@ TEST_P(LateProcesses, AreReplayedBitForBit) {
   EXPECT_EQ(result.not_recorded, 0U);
 }
 
-/// The recorder discovers the operator after the first samples of the stick.
-TEST(LostJogs, FollowFromTheStatuses) {
+/// A session of 100 samples of the stick, of which the recorder misses the first ones, then the release.
+replay::Result with_lost_jogs(int lost, bool release_is_lost) {
   const recording::TemporaryDirectory directory;
   const auto file = directory / "jog.mcap";
   LateStack crane{file, "virginia_tech_tower", "gain_scheduling_partial"};
@@ -165,18 +165,27 @@ TEST(LostJogs, FollowFromTheStatuses) {
   crane.ask({.kind = crane_REQUEST_JOG, .selected = {false, true, false}});
   crane.run(0.02);
   for (int i = 0; i < 100; ++i) {
-    crane.miss_operators(i < 30);
+    crane.miss_operators(i < lost);
     crane.deflect(i < 20 ? 0.2 : 0.3);
   }
+  crane.miss_operators(release_is_lost);
+  crane.deflect(0, false);
   crane.run(2);
   crane.close();
-  const auto result = replay::replay(file, replay::loop_components());
+  return replay::replay(file, replay::loop_components());
+}
+
+void expect_whole(const replay::Result& result) {
   EXPECT_FALSE(result.first) << replay::sentence(*result.first);
   EXPECT_EQ(result.ends, "");
   EXPECT_GT(result.equal_ticks, 600U);
   ASSERT_EQ(result.derived_requests.size(), 4U);
   EXPECT_NE(result.derived_requests.back().find("crane/jog of client 'operator'"), std::string::npos);
 }
+
+TEST(LostJogs, AtTheBeginningFollowFromTheStatuses) { expect_whole(with_lost_jogs(30, false)); }
+
+TEST(LostJogs, OfAWholeSessionFollowFromTheStatuses) { expect_whole(with_lost_jogs(100, true)); }
 
 /// The status of an accepted move was published in time, and the planner did not receive it.
 replay::Result with_lost_statuses(int moves) {
