@@ -1,7 +1,6 @@
 #pragma once
-/// When the supervisor steps in real time although inputs are missing. In lockstep, every step has all
-/// inputs. In a replay, the recording states the steps: the
-/// host polls the supervisor without a state, later than its last step.
+/// Times at which the supervisor steps in real time although inputs are missing. In lockstep, every step has
+/// all inputs. In a replay, the recording states the steps: the host polls the supervisor without a state.
 #include <cstdint>
 
 #include "crane/runtime/component.hpp"
@@ -26,9 +25,8 @@ class StepTiming {
   /// Call when no tick is complete. When this process was scheduled late, samples may have arrived at the
   /// host without being delivered yet. One pause of the computer must not count as several missing ticks.
   /// Therefore the function extends the wait, once per step.
-  /// @param open  a state has arrived and waits for its demand: the tick join determines the time of the
-  /// step,
-  ///   but a step is executed even if states continue to arrive without demands
+  /// @param open  a state has arrived and waits for its demand. The tick join then determines the time of the
+  ///   step; the supervisor also steps if states continue to arrive without demands
   /// @return true when the supervisor steps now without a state
   bool is_silent(bool open, std::int64_t now_ns);
 

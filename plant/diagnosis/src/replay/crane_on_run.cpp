@@ -26,11 +26,11 @@ Crane loaded_as(const Run& run, Crane crane) {
   return crane;
 }
 
-/// Delay of the reported behind the true swing, s: of a swing that increases linearly, after the memory of
-/// the sensor has passed. 0 for drives.
+/// Delay in s with which the sensors report a swing that increases linearly; 0 for drives. It is measured
+/// after the memory of the sensor has been filled.
 std::array<double, kOutputs> swing_delays_s(const Crane& crane, double period_s) {
-  constexpr double kMemory_s = 1;  // the longest delay and the longest mean, 0.5 s each
-  constexpr double kRate_radps = 0.1;
+  constexpr double kMemory_s = 1;      // bounds of swing_delay and swing_moving_average: 0.5 s each
+  constexpr double kRate_radps = 0.1;  // any small rate: the sensor terms are linear
   std::array<double, kOutputs> delays_s{};
   for (const Output output : {kRadialSwing, kTangentialSwing}) {
     plant::Model sensing(crane.parameters, crane.terms, period_s);
@@ -51,7 +51,8 @@ std::array<double, kOutputs> swing_delays_s(const Crane& crane, double period_s)
   return delays_s;
 }
 
-/// Adds to each value the error that is reported `ticks` later, interpolated linearly. @pre ticks >= 0
+/// Adds to each value the error of the report `ticks` later, interpolated linearly. After the last report,
+/// its error is used. @pre ticks >= 0
 void add_earlier(const std::vector<double>& errors, double ticks, std::vector<double>& values) {
   const double whole = std::floor(ticks), share = ticks - whole;
   const auto later = static_cast<std::size_t>(whole);
@@ -111,9 +112,9 @@ MeasuredKinematics Replay::CraneOnRun::measured_mid_row(std::size_t row) const {
   return at;
 }
 
-/// Fixed-point inversion of the sensor terms, to 1e-6 of an encoder's scale. The error of a swing is added at
-/// the time at which its cause has happened, the delay of the sensor earlier: without the shift, repeated
-/// inversion of a delay amplifies noise.
+/// Fixed-point iteration: each round adds the difference between the measurement and the report of the
+/// modelled sensor to the values. The relative error of an encoder's scale is 1e-6 afterwards. For a swing,
+/// the difference is added earlier by the delay of the sensor; otherwise each round would amplify noise.
 void Replay::CraneOnRun::invert_sensors() {
   constexpr int kRounds = 5;
   const Run& run = source.run;
