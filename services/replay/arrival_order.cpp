@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "replay/lost_request.hpp"
+#include "replay/lost_jog.hpp"
 
 namespace crane::replay {
 namespace {
@@ -43,8 +43,8 @@ bool answers_unknown_state(const RecordedTick& tick, std::uint64_t last_known) {
 
 ArrivalOrder::ArrivalOrder(recording::McapReader& reader) : reader_{reader} {
   recording::Selection selection;
-  for (const auto* topic : {&topics::request.description, &topics::reply.description,
-                            &topics::jog.description, &topics::node.description})
+  for (const auto* topic :
+       {&topics::accepted_request.description, &topics::jog.description, &topics::node.description})
     selection.topics.emplace_back(topic->name);
   reader_.for_each(selection, [this](const recording::Message& message) {
     note(message);
@@ -56,13 +56,10 @@ ArrivalOrder::ArrivalOrder(recording::McapReader& reader) : reader_{reader} {
 void ArrivalOrder::note(const recording::Message& message) {
   const auto& topic = message.channel->topic;
   Cdr cdr{message.data.begin(), message.data.end()};
-  if (topic == topics::request.description.name) {
-    if (const auto request = decoded(topics::request, cdr))
-      requests_.try_emplace({request->client, request->id}, std::move(cdr));
-  } else if (topic == topics::reply.description.name) {
-    const auto reply = decoded(topics::reply, cdr);
-    if (reply && reply->header.source == crane_SOURCE_SUPERVISOR)
-      replies_[reply->header.tick].push_back({message.publish_time_ns, *reply});
+  if (topic == topics::accepted_request.description.name) {
+    const auto accepted = decoded(topics::accepted_request, cdr);
+    if (accepted && accepted->header.source == crane_SOURCE_SUPERVISOR)
+      accepted_[accepted->header.tick].push_back({message.publish_time_ns, accepted->request});
   } else if (topic == topics::jog.description.name) {
     if (const auto jog = decoded(topics::jog, cdr))
       jogs_.push_back({message.publish_time_ns, *jog, std::move(cdr)});
@@ -79,7 +76,7 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   last_state_.reset();
   missing_demand_ = 0;
   derived_.clear();
-  next_jog_ = lost_jogs_of_ = 0;
+  next_jog_ = lost_jogs_of_ = session_epoch_ = 0;
   lost_jog_.reset();
   assumed_ = 0;
   has_earlier_ = false;
@@ -171,7 +168,7 @@ void ArrivalOrder::complete(Gathered& gathered) {
   }
   const auto decided_ns = tick.published_ns.at(topics::supervisor.description.name);
   const bool last = gathered.more_statuses.empty();
-  add_requests(tick.number, *status, {kBegin_ns, last ? kEnd_ns : decided_ns}, tick.inputs);
+  add_requests(tick.number, {kBegin_ns, last ? kEnd_ns : decided_ns}, tick.inputs);
   add_jogs(tick, *status, decided_ns);
   add_lost_jog(tick, *status);
   before_ = status;
@@ -215,8 +212,7 @@ void ArrivalOrder::add_steps_without_state(Gathered& gathered) {
     if (!status) continue;
     StepWithoutState step;
     const auto sent_ns = statuses[i].sent_ns;
-    add_requests(tick.number, *status, {before_ns, i + 1 == statuses.size() ? kEnd_ns : sent_ns},
-                 step.inputs);
+    add_requests(tick.number, {before_ns, i + 1 == statuses.size() ? kEnd_ns : sent_ns}, step.inputs);
     step.after_ns = sent_ns - std::exchange(before_ns, sent_ns);
     if (all_commands) step.command = std::move(gathered.more_commands[i].cdr);
     step.status = std::move(statuses[i].cdr);
@@ -226,22 +222,13 @@ void ArrivalOrder::add_steps_without_state(Gathered& gathered) {
   if (!statuses.empty()) tick.irregular = "the supervisor stepped without a new state";
 }
 
-void ArrivalOrder::add_requests(std::uint64_t tick, const msg::SupervisorStatus& status, const Between& times,
-                                std::vector<Received>& inputs) {
-  const auto replies = replies_.find(tick);
-  if (replies == replies_.end()) return;
-  for (const auto& [sent_ns, reply] : replies->second) {
+void ArrivalOrder::add_requests(std::uint64_t tick, const Between& times, std::vector<Received>& inputs) {
+  const auto accepted = accepted_.find(tick);
+  if (accepted == accepted_.end()) return;
+  for (const auto& [sent_ns, request] : accepted->second) {
     if (sent_ns <= times.after_ns || sent_ns > times.until_ns) continue;
-    if (const auto found = requests_.find({reply.client, reply.request_id}); found != requests_.end()) {
-      inputs.push_back({&topics::request.description, found->second});
-    } else if (reply.accepted && before_) {
-      auto request = request_behind(reply, *before_, status);
-      if (!request) continue;
-      const auto jog = first_jog_of(reply.request_id);
-      if (jog != jogs_.end()) request->header.epoch = jog->sample.header.epoch;
-      inputs.push_back({&topics::request.description, published(topics::request, *request)});
-      derived_.push_back("tick " + std::to_string(tick) + ": " + in_words(*request));
-    }
+    if (request.kind == crane_REQUEST_JOG) session_epoch_ = request.header.epoch;
+    inputs.push_back({&topics::request.description, published(topics::request, request)});
   }
 }
 
@@ -272,13 +259,12 @@ std::vector<ArrivalOrder::Jog>::const_iterator ArrivalOrder::first_jog_of(std::u
 /// ends. Until then, the supervisor receives a sample in every tick in which its status shows a deflection.
 /// The program releases the stick when it ends.
 void ArrivalOrder::add_lost_jog(RecordedTick& tick, const msg::SupervisorStatus& status) {
-  auto lost = jog_behind(status);
+  auto lost = jog_behind(status, session_epoch_);
   if (!lost && lost_jog_) lost = released(*lost_jog_, status);
   if (!lost) return;
   const auto first = first_jog_of(lost->request_id);
   lost_jog_.reset();
   if (first - jogs_.begin() < static_cast<std::ptrdiff_t>(next_jog_)) return;  // a sample has been delivered
-  if (first != jogs_.end()) lost->header.epoch = first->sample.header.epoch;
   tick.inputs.push_back({&topics::jog.description, published(topics::jog, *lost)});
   if (lost->engaged) lost_jog_ = *lost;
   if (std::exchange(lost_jogs_of_, lost->request_id) != lost->request_id)

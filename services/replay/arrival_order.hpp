@@ -1,6 +1,6 @@
 #pragma once
 /// A recording of the recorder: its samples are in the order of their arrival at the recorder. The samples of
-/// the loop state their tick. The reply to a request states the tick in which the supervisor executed the
+/// the loop state their tick. crane/accepted_request states the tick in which the supervisor executed a
 /// request.
 #include <cstdint>
 #include <functional>
@@ -16,7 +16,8 @@ namespace crane::replay {
 
 class ArrivalOrder {
  public:
-  /// Reads requests, replies and statuses. @throws recording::ReadError
+  /// Reads accepted requests, samples of the stick and statuses of the processes. @throws
+  /// recording::ReadError
   explicit ArrivalOrder(recording::McapReader& reader);
 
   /// Controller that the processes report on crane/node; empty: no process reports one.
@@ -26,7 +27,7 @@ class ArrivalOrder {
   void for_each(std::int64_t period_ns, const std::function<bool(const RecordedTick&)>& visit);
   /// Ticks before the first recorded one, in which the crane rested as in this one.
   [[nodiscard]] std::uint64_t assumed_ticks() const { return assumed_; }
-  /// Requests that were derived from the statuses of the supervisor, one line each.
+  /// Samples of the stick that were derived from the statuses of the supervisor, one line for each session.
   [[nodiscard]] const std::vector<std::string>& derived() const { return derived_; }
 
  private:
@@ -35,9 +36,9 @@ class ArrivalOrder {
     msg::Jog sample;
     Cdr cdr;
   };
-  struct Replied {
-    std::int64_t sent_ns;  ///< clock of the writer
-    msg::Reply reply;
+  struct Accepted {
+    std::int64_t sent_ns;  ///< clock of the supervisor
+    msg::Request request;
   };
   struct Published {
     std::int64_t sent_ns;  ///< clock of the writer
@@ -58,11 +59,9 @@ class ArrivalOrder {
   struct Between {
     std::int64_t after_ns, until_ns;
   };
-  /// Adds the requests that the supervisor executed in the step with this status.
-  /// @param times  of the status before, excluded, and of this status: a reply belongs to the first status
-  ///   that was published after it
-  void add_requests(std::uint64_t tick, const msg::SupervisorStatus& status, const Between& times,
-                    std::vector<Received>& inputs);
+  /// Adds the requests that the supervisor executed in the step between two statuses.
+  /// @param times  of the status before, excluded, and of the status of the step
+  void add_requests(std::uint64_t tick, const Between& times, std::vector<Received>& inputs);
   void add_jogs(RecordedTick& tick, const msg::SupervisorStatus& status, std::int64_t decided_ns);
   /// Adds a sample of the stick before the first recorded one of its session, also if none is recorded.
   void add_lost_jog(RecordedTick& tick, const msg::SupervisorStatus& status);
@@ -71,11 +70,11 @@ class ArrivalOrder {
   recording::McapReader& reader_;
   std::int64_t period_ns_ = 0;
   std::string controller_;
-  std::map<std::pair<std::string, std::uint64_t>, Cdr> requests_;  ///< by client and id
-  std::map<std::uint64_t, std::vector<Replied>> replies_;          ///< of the supervisor, by tick
+  std::map<std::uint64_t, std::vector<Accepted>> accepted_;  ///< by tick
   std::vector<Jog> jogs_;
   std::size_t next_jog_ = 0;
   std::uint64_t lost_jogs_of_ = 0;    ///< request of the last session with derived samples of the stick
+  std::uint32_t session_epoch_ = 0;   ///< start-up number of the program of the last session
   std::optional<msg::Jog> lost_jog_;  ///< the last derived sample, if it deflects the stick
   std::map<std::uint64_t, Gathered> ticks_;           ///< not visited yet
   std::map<std::string_view, std::uint32_t> epochs_;  ///< of the writers, by topic

@@ -43,8 +43,8 @@ class RecordedRun {
   void for_each(const std::function<bool(const RecordedTick&)>& visit);
   /// As ArrivalOrder::assumed_ticks(); after for_each().
   [[nodiscard]] std::uint64_t assumed_ticks() const { return arrivals_ ? arrivals_->assumed_ticks() : 0; }
-  /// Requests that the recording lacks and its statuses show, one line each; after for_each().
-  [[nodiscard]] std::vector<std::string> derived_requests() const {
+  /// As ArrivalOrder::derived(); after for_each().
+  [[nodiscard]] std::vector<std::string> derived_jogs() const {
     return arrivals_ ? arrivals_->derived() : std::vector<std::string>{};
   }
   /// Damage found so far (McapReader::problems()).

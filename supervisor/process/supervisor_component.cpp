@@ -45,6 +45,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
                    crane_REQUEST_HOME, crane_REQUEST_MODE}},
         jogs_{context},
         sole_{context},
+        accepted_{context.ports.output(topics::accepted_request)},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -211,7 +212,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         continue;
       }
       if (!problem.empty()) {
-        requests_.reply(*request, last_header_, false, problem);
+        reply(*request, false, problem);
         continue;
       }
       if (request->kind == crane_REQUEST_RESET) std::ranges::copy(request->selected, input.confirmed.begin());
@@ -228,7 +229,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       mode_ = static_cast<Mode>(request.mode);
       node().info("operating_mode", std::string{"mode "} + name_of(mode_) + ": " + rule_of(mode_).purpose);
     }
-    requests_.reply(request, last_header_, problem.empty(), problem);
+    reply(request, problem.empty(), problem);
   }
 
   void answer(const DueRequest& due, const TickOutput& output, double now_s) {
@@ -239,7 +240,17 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       ticks_to_take_up_ = kTicksToTakeUp;
       jogs_.accepted(request, due.sender, now_s);
     }
-    requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
+    reply(request, verdict.accepted, verdict.reason);
+  }
+
+  void reply(const msg::Request& request, bool accepted, std::string_view reason) {
+    if (accepted) {
+      msg::AcceptedRequest sample{};
+      sample.header = last_header_;
+      sample.request = request;
+      accepted_.publish(sample);
+    }
+    requests_.reply(request, last_header_, accepted, reason);
   }
 
   Limits limits_;
@@ -250,6 +261,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   runtime::RequestInbox requests_;
   JogReader jogs_;
   SoleReader sole_;
+  runtime::Output<msg::AcceptedRequest> accepted_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   BoardSelfTest self_test_;
@@ -283,6 +295,7 @@ runtime::ComponentSpec supervisor_spec() {
                     {&topics::node.description, "start-up number, process id and age of another supervisor"}},
           .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
                      {&topics::supervisor.description, "safety state, and the move that was accepted"},
+                     {&topics::accepted_request.description, "requests that were accepted, for recordings"},
                      {&topics::reply.description, "answers to requests"}},
           .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
             return std::make_unique<Supervisor>(context);

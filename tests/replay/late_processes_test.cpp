@@ -179,8 +179,8 @@ void expect_whole(const replay::Result& result) {
   EXPECT_FALSE(result.first) << replay::sentence(*result.first);
   EXPECT_EQ(result.ends, "");
   EXPECT_GT(result.equal_ticks, 600U);
-  ASSERT_EQ(result.derived_requests.size(), 4U);
-  EXPECT_NE(result.derived_requests.back().find("crane/jog of client 'operator'"), std::string::npos);
+  ASSERT_EQ(result.derived_jogs.size(), 1U);
+  EXPECT_NE(result.derived_jogs.front().find("crane/jog of client 'operator'"), std::string::npos);
 }
 
 TEST(LostJogs, AtTheBeginningFollowFromTheStatuses) { expect_whole(with_lost_jogs(30, false)); }

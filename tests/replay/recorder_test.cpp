@@ -67,20 +67,55 @@ TEST_F(ByTheRecorder, IsReplayedBitForBit) {
   EXPECT_TRUE(result.by_recorder);
   EXPECT_EQ(result.ends, "");
   EXPECT_EQ(result.not_recorded, 0U);
-  EXPECT_TRUE(result.derived_requests.empty());
+  EXPECT_TRUE(result.derived_jogs.empty());
 }
 
-TEST_F(ByTheRecorder, RequestsThatAreMissingFollowFromTheStatuses) {
+/// The programs of the operator ended before the recorder discovered them.
+TEST_F(ByTheRecorder, IsReplayedWithoutASampleOfTheOperator) {
   const auto result = replayed(without([](const recording::Message& message) {
     return message.channel->topic == topics::request.description.name;
   }));
   EXPECT_FALSE(result.first) << replay::sentence(*result.first);
   EXPECT_EQ(result.equal_ticks, ticks_);
-  ASSERT_EQ(result.derived_requests.size(), 4U);
-  for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_NE(result.derived_requests[i].find(std::array{"reset", "arm", "move", "stop"}.at(i)),
-              std::string::npos)
-        << result.derived_requests[i];
+}
+
+TEST_F(ByTheRecorder, TheAcceptedRequestsAreTheRequestsOfTheOperator) {
+  std::vector<msg::Request> sent;
+  std::vector<msg::AcceptedRequest> accepted;
+  recording::McapReader reader{file_};
+  reader.for_each({}, [&](const recording::Message& message) {
+    if (message.channel->topic == topics::request.description.name)
+      sent.push_back(*replay::decoded(topics::request, message.data));
+    if (message.channel->topic == topics::accepted_request.description.name)
+      accepted.push_back(*replay::decoded(topics::accepted_request, message.data));
+    return true;
+  });
+  std::erase_if(sent, [](const auto& request) { return request.kind == crane_REQUEST_ADVANCE; });
+  ASSERT_EQ(sent.size(), 4U);
+  ASSERT_EQ(accepted.size(), sent.size());
+  for (std::size_t i = 0; i < sent.size(); ++i)
+    EXPECT_EQ(replay::encoded(topics::request.description, &accepted[i].request),
+              replay::encoded(topics::request.description, &sent[i]));
+}
+
+TEST_F(ByTheRecorder, ARequestIsTakenFromTheAcceptedRequests) {
+  const auto copy = directory_ / "other_target.mcap";
+  std::uint64_t tick = 0;
+  copy_changed(file_, copy, [&](const recording::Message& message, std::vector<std::uint8_t>& data) {
+    if (message.channel->topic != topics::accepted_request.description.name)
+      return message.channel->topic != recording::kLossTopic;
+    auto accepted = *replay::decoded(topics::accepted_request, data);
+    if (accepted.request.kind != crane_REQUEST_MOVE) return true;
+    tick = accepted.header.tick;
+    accepted.request.target[1] = 0.5;
+    data = replay::published(topics::accepted_request, accepted);
+    return true;
+  });
+  const auto result = replayed(copy);
+  ASSERT_TRUE(result.first);
+  EXPECT_EQ(result.first->tick, tick);
+  EXPECT_EQ(result.first->topic, "crane/supervisor");
+  EXPECT_EQ(result.first->what.field, "move.target[1]");
 }
 
 TEST_F(ByTheRecorder, ASampleThatIsNotRecordedIsNotCompared) {

@@ -52,6 +52,17 @@ TEST_F(RefusedRecording, OfARecorderWithoutRigFileAndController) {
   EXPECT_NE(reason.find("controller: missing"), std::string::npos) << "all reasons at once: " << reason;
 }
 
+TEST_F(RefusedRecording, OfProgramsThatDidNotPublishTheAcceptedRequests) {
+  const auto file = directory_ / "earlier.mcap";
+  recording::McapWriter writer{file};
+  const auto& node = topics::node.description;
+  (void)writer.channel(writer.schema(std::string{node.type}, "omgidl", std::string{topics::idl_text()}),
+                       std::string{node.name}, "cdr");
+  writer.close();
+  const auto reason = reason_of(file);
+  EXPECT_NE(reason.find("crane/accepted_request: no such topic"), std::string::npos) << reason;
+}
+
 TEST_F(RefusedRecording, WithAnUnknownController) {
   origin_["controller"] = "bang_bang";
   EXPECT_NE(reason_with(origin_).find("controller = bang_bang: this program has no such controller"),
