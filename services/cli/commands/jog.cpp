@@ -86,64 +86,75 @@ void add_axis(CLI::App& command, JogOptions& options, std::size_t axis, const st
       ->type_name("SHARE");
 }
 
+/// Options of a deflection for a given time, without keyboard or gamepad.
+void add_scripted_options(CLI::App& command, JogOptions& options) {
+  add_axis(command, options, 0, "--trolley", "share of the largest speed, -1 to 1; positive: outwards");
+  add_axis(command, options, 1, "--slew", "share of the largest speed, -1 to 1");
+  add_axis(command, options, 2, "--hoist", "share of the largest speed, -1 to 1; positive: down");
+  command
+      .add_option(
+          "--for", options.for_s,
+          "duration of the deflection in s; the supervisor releases a stick that is deflected for 60 s")
+      ->check(number_in(0.02, 50.0))
+      ->capture_default_str();
+}
+
+void add_stick_options(CLI::App& command, JogOptions& options) {
+  command.add_flag("--micro", options.stick.micro,
+                   "begin at micro-speed, a tenth of the speed; keyboard: the key m ends micro-speed");
+  command.add_flag("--inch", options.stick.inching, "keyboard: begin with inching; the key i ends inching");
+  command
+      .add_option_function<std::string>(
+          "--step", [&options](const std::string& text) { options.stick.step_m = step_of(text); },
+          "step of inching, 0.5 mm to 50 mm; slew axis: arc at the radius of the trolley (default: 2mm)")
+      ->type_name("LENGTH");
+  command
+      .add_option("--axes", options.axes,
+                  "axes of keyboard and gamepad; with the hoist, all stops take longer (docs/jog.md)")
+      ->check(CLI::IsMember(plant::drive_names()))
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--gamepad", [&options](const std::string& device) { options.gamepad = device; },
+          "use a gamepad as the stick; without DEVICE: the only gamepad in /dev/input")
+      ->expected(0, 1)
+      ->default_str("")
+      ->type_name("DEVICE");
+  command.add_option("--timeout", options.stick.timeout_s, "longest wait for rest in s")
+      ->check(number_in(kShortestWait_s, kLongestWait_s))
+      ->capture_default_str();
+}
+
+constexpr const char* kJogNotes =
+    "Examples: crane jog                                         # keyboard: trolley and slew\n"
+    "          crane jog --inch --step 1mm                      # each key press is one step\n"
+    "          crane jog --trolley 0.5 --slew -0.2 --for 2      # deflects, releases, prints travel and "
+    "swing\n"
+    "          crane jog --gamepad /dev/input/event5            # the sticks act while the left shoulder "
+    "button is held\n"
+    "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or\n"
+    "after m, at micro-speed; space releases the stick; q ends the program. A terminal reports no release\n"
+    "of a key: a key acts for 0.6 s, and for 0.15 s after each repetition by the keyboard. After ten\n"
+    "seconds without a key the session ends.\n"
+    "The key i turns inching on and off: each key press moves one axis by a step; a key that is held down\n"
+    "causes one step. The key r releases the stick and moves the axes back to the stop point, where the\n"
+    "stick was last released.\n"
+    "Steps and returns are moves: the supervisor checks them like `crane move`. During a move, space, q,\n"
+    "Ctrl-C and a closed terminal stop the crane, which then locks.\n"
+    "The crane stops when this program ends, sends nothing for 0.1 s, or holds a deflection for a minute\n"
+    "without a break; a deflection acts again after the keys have been released. Exception: if SIGKILL\n"
+    "ends this program during a step or a return, the crane continues to the target of the move.";
+
 }  // namespace
 
 void add_jog(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<JogOptions>();
   auto* command =
       app.add_subcommand("jog", "Drive the axes by speed; input shaping reduces the swing of the load");
-  add_axis(*command, *options, 0, "--trolley", "share of the largest speed, -1 to 1; positive: outwards");
-  add_axis(*command, *options, 1, "--slew", "share of the largest speed, -1 to 1");
-  add_axis(*command, *options, 2, "--hoist", "share of the largest speed, -1 to 1; positive: down");
-  command
-      ->add_option(
-          "--for", options->for_s,
-          "duration of the deflection in s; the supervisor releases a stick that is deflected for 60 s")
-      ->check(number_in(0.02, 50.0))
-      ->capture_default_str();
-  command->add_flag("--micro", options->stick.micro,
-                    "begin at micro-speed, a tenth of the speed; keyboard: the key m ends micro-speed");
-  command->add_flag("--inch", options->stick.inching, "keyboard: begin with inching; the key i ends inching");
-  command
-      ->add_option_function<std::string>(
-          "--step", [options](const std::string& text) { options->stick.step_m = step_of(text); },
-          "step of inching, 0.5 mm to 50 mm; slew axis: arc at the radius of the trolley (default: 2mm)")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--axes", options->axes,
-                   "axes of keyboard and gamepad; with the hoist, all stops take longer (docs/jog.md)")
-      ->check(CLI::IsMember(plant::drive_names()))
-      ->capture_default_str();
-  command
-      ->add_option_function<std::string>(
-          "--gamepad", [options](const std::string& device) { options->gamepad = device; },
-          "use a gamepad as the stick; without DEVICE: the only gamepad in /dev/input")
-      ->expected(0, 1)
-      ->default_str("")
-      ->type_name("DEVICE");
-  command->add_option("--timeout", options->stick.timeout_s, "longest wait for rest in s")
-      ->check(number_in(kShortestWait_s, kLongestWait_s))
-      ->capture_default_str();
+  add_scripted_options(*command, *options);
+  add_stick_options(*command, *options);
   runtime::add_bus_options(*command, options->stick.bus);
-  command->footer(
-      "Examples: crane jog                                         # keyboard: trolley and slew\n"
-      "          crane jog --inch --step 1mm                      # each key press is one step\n"
-      "          crane jog --trolley 0.5 --slew -0.2 --for 2      # deflects, releases, prints travel and "
-      "swing\n"
-      "          crane jog --gamepad /dev/input/event5            # the sticks act while the left shoulder "
-      "button is held\n"
-      "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or\n"
-      "after m, at micro-speed; space releases the stick; q ends the program. A terminal reports no release\n"
-      "of a key: a key acts for 0.6 s, and for 0.15 s after each repetition by the keyboard. After ten\n"
-      "seconds without a key the session ends.\n"
-      "The key i turns inching on and off: each key press moves one axis by a step; a key that is held down\n"
-      "causes one step. The key r releases the stick and moves the axes back to the stop point, where the\n"
-      "stick was last released.\n"
-      "Steps and returns are moves: the supervisor checks them like `crane move`. During a move, space, q,\n"
-      "Ctrl-C and a closed terminal stop the crane, which then locks.\n"
-      "The crane stops when this program ends, sends nothing for 0.1 s, or holds a deflection for a minute\n"
-      "without a break; a deflection acts again after the keys have been released. Exception: if SIGKILL\n"
-      "ends this program during a step or a return, the crane continues to the target of the move.");
+  command->footer(kJogNotes);
   command->callback([options, &chosen] {
     const bool any = options->selected != std::array<bool, 3>{};
     for (std::size_t i = 0; i < options->stick.selected.size(); ++i)

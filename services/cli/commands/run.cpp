@@ -217,43 +217,51 @@ std::string described_variants() {
   return lines;
 }
 
+void add_selection_options(CLI::App& command, RunOptions& options) {
+  command.add_option(
+      "scenario", options.scenarios,
+      "scenario files or names (maneuver_1, figure_4_10, ...); default with --compare: the three "
+      "maneuvers");
+  command.add_option(
+      "--controller", options.controllers,
+      "controller (repeatable); default: the controller of the scenario, else of the rig file; with "
+      "--compare every controller");
+  command
+      .add_option("--variants", options.variants,
+                  "changes of the rig (list below); default: the variants of the scenario, else none; with "
+                  "--compare the first eight")
+      ->delimiter(',');
+  command.add_option(
+      "--rig", options.rig,
+      std::string{"rig file or name; default: the rig of the scenario, else "} + stack::kDefaultRig);
+}
+
+void add_plant_and_clock_options(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--integrator", options.integrator,
+                  "integrator of the simulated plant: cvode (the reference), or fast (only with "
+                  "--in-process or --compare)")
+      ->check(CLI::IsMember(Names{simulator::kMethodNames.begin(), simulator::kMethodNames.end()}))
+      ->capture_default_str();
+  add_plant_option(command, options.plant,
+                   ", in lockstep an emulated one (emulated_servo_to_go); not with --compare");
+  command
+      .add_option(
+          "--clock", options.clock,
+          "lockstep: simulated time; realtime: also on a real board with --plant hardware; writes run.csv "
+          "only, and ignores kicks and initial swing of the scenario")
+      ->check(CLI::IsMember({"lockstep", "realtime"}))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_run(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RunOptions>();
   auto* command = app.add_subcommand(
       "run", "Run scenarios (files that describe moves) in simulated or real time, and evaluate them");
-  command->add_option(
-      "scenario", options->scenarios,
-      "scenario files or names (maneuver_1, figure_4_10, ...); default with --compare: the three "
-      "maneuvers");
-  command->add_option(
-      "--controller", options->controllers,
-      "controller (repeatable); default: the controller of the scenario, else of the rig file; with "
-      "--compare every controller");
-  command
-      ->add_option("--variants", options->variants,
-                   "changes of the rig (list below); default: the variants of the scenario, else none; with "
-                   "--compare the first eight")
-      ->delimiter(',');
-  command->add_option(
-      "--rig", options->rig,
-      std::string{"rig file or name; default: the rig of the scenario, else "} + stack::kDefaultRig);
-  command
-      ->add_option("--integrator", options->integrator,
-                   "integrator of the simulated plant: cvode (the reference), or fast (only with "
-                   "--in-process or --compare)")
-      ->check(CLI::IsMember(Names{simulator::kMethodNames.begin(), simulator::kMethodNames.end()}))
-      ->capture_default_str();
-  add_plant_option(*command, options->plant,
-                   ", in lockstep an emulated one (emulated_servo_to_go); not with --compare");
-  command
-      ->add_option(
-          "--clock", options->clock,
-          "lockstep: simulated time; realtime: also on a real board with --plant hardware; writes run.csv "
-          "only, and ignores kicks and initial swing of the scenario")
-      ->check(CLI::IsMember({"lockstep", "realtime"}))
-      ->capture_default_str();
+  add_selection_options(*command, *options);
+  add_plant_and_clock_options(*command, *options);
   command->add_option("--out", options->out, "directory for recording, CSV, metrics and picture")
       ->capture_default_str();
   command->add_flag(
