@@ -26,7 +26,7 @@ std::string violations_of(const Result& result) {
 std::string number(double value, const char* none = "–") {
   if (value < 0) return none;
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), value < 1000 ? "%.0f" : "%.0f", value);
+  std::snprintf(text.data(), text.size(), "%.0f", value);
   return text.data();
 }
 

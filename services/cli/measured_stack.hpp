@@ -26,7 +26,7 @@ struct MeasuredStack {
 };
 
 /// Adds --rig, --plant, --seconds, --json and the options of the bus.
-/// @param options outlives the command
+/// @param options  must outlive the command
 void add_measured_stack(CLI::App& command, MeasuredStack& options, double longest_s);
 
 }  // namespace crane::cli

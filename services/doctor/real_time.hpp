@@ -17,9 +17,8 @@ struct Permissions {
 
 struct Buffers {
   std::int64_t largest_bytes = 0;  ///< net.core.rmem_max
-  /// number of datagrams lost because of a full buffer since the start of the computer
-  std::int64_t lost = 0;
-  std::int64_t received = 0;
+  /// Datagrams since the start of the computer: lost because of a full buffer; received.
+  std::int64_t lost = 0, received = 0;
 };
 /// @param proc  "/proc"
 [[nodiscard]] Buffers read_buffers(const std::filesystem::path& proc = "/proc");

@@ -35,8 +35,8 @@ std::vector<Action> actions_of(const experiment::Scenario& scenario) {
   return actions;
 }
 
-/// Longest wait for the arrival of all axes, and longest wait for the end of the swing. Both together are
-/// shorter than the time after which the supervisor locks an idle crane in HOLD.
+/// Longest wait for the arrival of all axes in HOLD; then also the longest wait for the end of the swing. The
+/// second wait is shorter than idle_lock_s (60 s), after which the supervisor locks an idle crane in HOLD.
 constexpr auto kPatience = 30s;
 
 void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {

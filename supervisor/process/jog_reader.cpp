@@ -19,8 +19,9 @@ void JogReader::take(std::uint64_t tick, double now_s) {
       unusable_reported_ = true;
       node_.warning(
           "jog_unusable",
-          "a sample of crane/jog has no effect: it is late, its deflection is outside [-1, 1] or has "
-          "not changed for a minute, or the stick has not been released after one of these",
+          "a sample of crane/jog has no effect: it is late, its deflection is outside [-1, 1], the stick "
+          "has been deflected for 60 s without a break, or the stick has not been released since such a "
+          "fault",
           "release the stick; send the newest tick with each sample, and deflections from -1 to 1");
     }
   }

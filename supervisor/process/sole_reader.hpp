@@ -17,7 +17,7 @@ class SoleReader {
 
   /// Takes a bounded number of samples: a flood must not delay the step. The samples have no effect in
   /// lockstep, because there the time does not advance without the plant.
-  /// @throws std::runtime_error that names the other supervisor when this process must end
+  /// @throws std::runtime_error that names the other supervisor when this process must exit
   void take(std::int64_t now_ns);
   /// Call once for each published status of this process.
   void stepped(State state) { sole_.stepped(static_cast<crane_SupervisorState>(state)); }

@@ -2,11 +2,11 @@
 /// Detects another supervisor of the same crane, at the start and later. Pure; the time is an argument.
 ///
 /// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). A new
-/// supervisor ends (yields()) beside one that is established (in use). If both are new, the one with the
-/// larger start-up number ends. At most one of two ends: only a new
-/// supervisor ends, an established one never becomes new again, and of two start-up numbers only one is the
-/// larger one. A sample of crane/node alone ends no supervisor, because every process may write this topic.
-/// crane/supervisor has one writer, and keys authenticate this writer.
+/// supervisor exits (yields()) beside an established one, which is in use. If both are new, the supervisor
+/// with the larger start-up number exits. At most one of two supervisors exits: only a new supervisor exits,
+/// an established one never becomes new again, and two start-up numbers differ. A sample of crane/node alone
+/// ends no supervisor, because every process may write this topic. crane/supervisor has one writer, and keys
+/// authenticate this writer.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,7 +37,7 @@ class SoleSupervisor {
   [[nodiscard]] bool disputed(std::int64_t now_ns) const {
     return disputed_ns_ && now_ns - *disputed_ns_ < kDispute_ns;
   }
-  /// @return true when this process must end
+  /// @return true when this process must exit
   [[nodiscard]] bool yields() const {
     return is_new_ && rival_ && rival_->publishes && (rival_->established || rival_->epoch < epoch_);
   }

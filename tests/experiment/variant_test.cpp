@@ -20,7 +20,7 @@ configuration::Rig tower_with_friction() {
   return rig;
 }
 
-TEST(Variant, ComparesEightUnlessToldOtherwise) {
+TEST(Variant, ComparesEightVariantsByDefault) {
   EXPECT_THAT(default_variants(),
               ElementsAre("ideal", "exact_compensation", "no_compensation", "under_compensation",
                           "short_cable", "long_cable", "light_load", "heavy_load"));

@@ -44,7 +44,7 @@ TEST(Printable, ReplacesInvalidUtf8) {
   EXPECT_EQ(shown("\xF4\x90\x80\x80\xFF"), "?????") << "beyond U+10FFFF";
 }
 
-TEST(Printable, OfRandomBytesStaysThatLongAndDoesNotChangeAgain) {
+TEST(Printable, OfRandomBytesKeepsTheirNumberAndIsIdempotent) {
   constexpr unsigned kSeed = 41;
   std::mt19937 random{kSeed};
   for (int i = 0; i < 20'000; ++i) {

@@ -92,7 +92,7 @@ TEST(Acquisition, TriggersWithinACaptureAreIgnoredAndTheNextCaptureHasItsOwnPast
   EXPECT_EQ(at.captures[1].rows.front().tick, 34U) << "the past of a capture may overlap the capture before";
 }
 
-TEST(Acquisition, AutomaticCapturesWithoutATriggerAfterBeforeAndAfter) {
+TEST(Acquisition, AutoModeCapturesWithoutATriggerAfterThePreAndPostTimes) {
   auto window = kWindow;
   window.automatic = true;
   Timeline at{window};

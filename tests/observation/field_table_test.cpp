@@ -32,7 +32,7 @@ TEST(FieldTable, FindsAFieldByTopicAndPath) {
     EXPECT_FALSE(table.find(name)) << name;
 }
 
-TEST(FieldTable, ExplainsAnUnknownNameWithTheOneThatWasMeant) {
+TEST(FieldTable, NamesTheMostSimilarFieldForAnUnknownName) {
   const FieldTable table;
   EXPECT_EQ(table.explain("state.swing_radial_ra"),
             "unknown field 'state.swing_radial_ra'; did you mean state.swing_radial_rad?");

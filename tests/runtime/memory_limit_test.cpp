@@ -47,7 +47,7 @@ TEST(MemoryLimit, EndsAProcessThatGrows) {
   EXPECT_EQ(exit_after([] { allocate(kTwice, kTwice / kPiece_bytes); }), kOutOfMemory);
 }
 
-TEST(MemoryLimit, PermitsHalfOfTheGrowthAndAnyAmountOneAfterTheOther) {
+TEST(MemoryLimit, PermitsHalfOfTheGrowthAndAnyNumberOfFreedAllocations) {
   EXPECT_EQ(exit_after([] { allocate(4 * kMostGrowth_bytes, kMostGrowth_bytes / 2 / kPiece_bytes); }),
             EXIT_SUCCESS);
 }

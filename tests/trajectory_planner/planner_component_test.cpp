@@ -55,7 +55,7 @@ TEST_F(PlannerComponent, PublishesTheReferenceOfTheNextTick) {
   EXPECT_EQ(tick().header.tick, 3u);
 }
 
-TEST_F(PlannerComponent, BeginsWhereTheCraneIsBesideACraneThatIsArmed) {
+TEST_F(PlannerComponent, BeginsAtThePositionOfACraneThatIsAlreadyArmed) {
   const auto first = tick();
   EXPECT_EQ(first.axis[0].position, 0.5);
   EXPECT_EQ(first.axis[1].position, 0.2);
@@ -70,12 +70,12 @@ TEST_F(PlannerComponent, ExecutesANewMoveOnce) {
   EXPECT_EQ(moving.move_number, 1u);
   EXPECT_TRUE(moving.moving);
   state_ = crane_STATE_LOCKED;
-  EXPECT_EQ(tick().axis[0].position, 0.5) << "the reference of a locked crane is where the crane is";
+  EXPECT_EQ(tick().axis[0].position, 0.5) << "the reference of a locked crane is its position";
   state_ = crane_STATE_HOLD;
   EXPECT_EQ(tick().axis[0].position, 0.5) << "an old move is not executed again";
 }
 
-TEST_F(PlannerComponent, LeavesAMoveAloneThatItSeesOnlyAfterItsStop) {
+TEST_F(PlannerComponent, DoesNotExecuteAMoveThatItReceivesAfterAStop) {
   (void)tick();
   accept(1, 0.9);
   for (const auto state : {crane_STATE_STOP_C1, crane_STATE_LOCKED, crane_STATE_READY, crane_STATE_ARMING,
@@ -89,7 +89,7 @@ TEST_F(PlannerComponent, LeavesAMoveAloneThatItSeesOnlyAfterItsStop) {
   EXPECT_EQ(tick().axis[0].position, 0.7);
 }
 
-TEST_F(PlannerComponent, LeavesAMoveAloneThatItSeesOnlyAfterTheSupervisorHasGivenItUp) {
+TEST_F(PlannerComponent, DoesNotExecuteAMoveThatItReceivesAfterTheSupervisorHasLeftRun) {
   (void)tick();
   accept(1, 0.9);
   state_ = crane_STATE_HOLD;
@@ -98,7 +98,7 @@ TEST_F(PlannerComponent, LeavesAMoveAloneThatItSeesOnlyAfterTheSupervisorHasGive
   EXPECT_EQ(tick().axis[0].position, 0.5);
 }
 
-TEST_F(PlannerComponent, LeavesAMoveAloneThatWasAcceptedBeforeItListened) {
+TEST_F(PlannerComponent, DoesNotExecuteAMoveThatWasAcceptedBeforeItsFirstTick) {
   accept(5, 0.9);
   EXPECT_EQ(tick().axis[0].position, 0.5);
   EXPECT_EQ(tick().axis[0].position, 0.5);
@@ -126,7 +126,7 @@ TEST_F(PlannerAroundZones, ReportsAMoveAsExecutedFromItsBeginningOn) {
   EXPECT_EQ(tick().move_number, 1u) << "the crane rests: the move begins at once";
 }
 
-TEST_F(PlannerAroundZones, DoesNotReportAMoveAsExecutedToWhichItFindsNoWay) {
+TEST_F(PlannerAroundZones, DoesNotReportAMoveAsExecutedWithoutAPathToItsTarget) {
   (void)tick();
   accept(1, 0.7);
   move_.selected[1] = true;
@@ -156,7 +156,7 @@ TEST_F(PlannerInRealTime, ExecutesAMoveWhoseFirstStatusIsLost) {
   EXPECT_EQ(tick().axis[0].position, 0.9);
 }
 
-TEST_F(PlannerInRealTime, LeavesAMoveAloneThatItSeesOnlyAfterTheStatusWasMissingForLong) {
+TEST_F(PlannerInRealTime, DoesNotExecuteAMoveThatItReceivesAfterALongGapOfTheStatus) {
   (void)tick();
   accept(1, 0.9);
   for (int k = 0; k < 5; ++k) (void)tick_without_status();

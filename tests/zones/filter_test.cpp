@@ -41,7 +41,7 @@ double drive_until_stopped(GuardedCrane& crane, double speed_mps) {
 
 class EverySpeed : public testing::TestWithParam<double> {};
 
-TEST_P(EverySpeed, IsStoppedBeforeTheWallWithTheSwing) {
+TEST_P(EverySpeed, IsStoppedBeforeTheWallEvenIfTheLoadSwings) {
   const auto rig = rig_with("virginia_tech_tower", {wall_at(1.25)});
   GuardedCrane crane{rig, rig};
   const double farthest_m = drive_until_stopped(crane, GetParam());

@@ -7,8 +7,9 @@
 namespace crane::analysis {
 namespace {
 
-/// System matrix of the loop. States: w, w', ... of p(d/dt) w = -u_l, then one state x_i per section with
-/// c x_i' = u_(i-1) - x_i, u_i = 2 x_i - u_(i-1), c = tau / 2l, u_0 = q(d/dt) w.
+/// System matrix of the loop with `order` = l all-pass sections for the delay tau. States: w, w', ... of
+/// p(d/dt) w = -u_l, then one state x_i per section with c x_i' = u_(i-1) - x_i, u_i = 2 x_i - u_(i-1),
+/// c = tau / 2l, u_0 = q(d/dt) w.
 Eigen::MatrixXd loop(const QuasiPolynomial& f, Eigen::Index order) {
   const auto degree = static_cast<Eigen::Index>(f.p.size() - 1);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(degree + order, degree + order);

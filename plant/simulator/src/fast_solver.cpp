@@ -1,4 +1,4 @@
-/// The fast method: one-step formulas with error control (one_step.hpp). Each step takes the cheaper formula.
+/// The fast method: one-step formulas with error control (one_step.hpp). Each step uses the cheaper formula.
 ///
 /// An event ends the step in which a watched distance changes its sign. The time of the event is found by
 /// repeating the step with other lengths.
@@ -93,7 +93,7 @@ class FastSolver final : public Solver {
                                      double high_value) {
     double low = 0;
     Vector reached = end;
-    int side = 0;  // end of the interval that the last trial has moved
+    int side = 0;  // -1: the last trial moved the lower end of the interval; 1: the upper end
     for (int trial = 0; trial < kMostEventTrials && high - low > kEventTime_s && high_value != 0; ++trial) {
       const double at = high - high_value * (high - low) / (high_value - low_value);
       const Vector there = step_.step(at).end;

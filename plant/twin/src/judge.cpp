@@ -54,7 +54,7 @@ void Judge::add(const Block& block) {
   if (learnt_s_ < design_.learn_s) return;
   learn();
   phase_ = Phase::watching;
-  // Only the scatter was learnt, not the mean: a deviation from the start must raise an alarm.
+  // Only the scatter was learnt, not the mean: a deviation that exists from the start must raise an alarm.
   for (const Block& earlier : learnt_from_) judge(earlier);
   learnt_from_.clear();
 }

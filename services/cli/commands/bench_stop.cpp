@@ -1,5 +1,5 @@
-/// crane bench stop: time until the brakes are closed when the hardware bridge is killed or stopped during a
-/// move.
+/// crane bench stop: time from the last toggle of the watchdog output until the brakes are closed, when the
+/// hardware bridge is killed or stopped during a move.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -49,8 +49,8 @@ void get_to_speed(experiments::RealtimeSession& session) {
   }
 }
 
-/// Starts a stack and a move of trolley and jib, and sends the signal at full speed. Returns nothing when the
-/// crane has not reached its speed, because other load on the computer delayed the stack.
+/// Starts a stack and a move of trolley and jib, and sends the signal above 0.3 m/s and 0.5 rad/s. Returns
+/// nothing when the crane has not reached this speed, because other load on the computer delayed the stack.
 std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   launch.bus.crane = "bench_" + std::to_string(::getpid());
   const auto specs = stack::hardware_stack();
@@ -138,7 +138,7 @@ int bench_stop(BenchStopOptions options) {
 void add_bench_stop(CLI::App& bench, Action& chosen) {
   auto options = std::make_shared<BenchStopOptions>();
   auto* command = bench.add_subcommand("stop",
-                                       "Kill the bridge while the emulated crane moves at full speed; "
+                                       "Kill or stop the bridge while the emulated crane moves; "
                                        "measure the time until the brakes are closed");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
   command->add_option("--runs", options->runs, "number of runs; half with SIGKILL, half with SIGSTOP")

@@ -131,7 +131,7 @@ void add_campaign(CLI::App& app, Action& chosen) {
   command->add_option("--first-seed", options->first_seed,
                       "first seed; a seed selects rig, controller, move and details of the fault");
   command->add_option("--seeds", options->seeds,
-                      "number of seeds; 252 runs each with all hazards and moments");
+                      "number of seeds; 246 to 270 runs each with all hazards and moments");
   command->add_option("--jobs", options->jobs, "number of runs at the same time")->check(CLI::PositiveNumber);
   command->add_option("--record", options->record,
                       "write an MCAP recording of the run; needs one --hazard, --moment and --seed");

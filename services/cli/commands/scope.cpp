@@ -202,7 +202,7 @@ constexpr const char* kFooter =
     "run.mcap\n"
     "          crane scope --trigger 'state.trolley_position_m - reference.axis[0].position > 20mm' \\\n"
     "            --signal demand.total_v[0] --out capture.csv\n"
-    "The trigger is the tick at which the condition becomes true. It consists of fields TOPIC.FIELD (crane "
+    "The trigger is the tick at which the condition becomes true. A condition has fields TOPIC.FIELD (crane "
     "topic echo\n"
     "prints them), numbers with units (deg, mm, ms, m/s, ...), enumerators, + - * / < <= > >= == !=, and, "
     "or, not,\n"

@@ -118,7 +118,7 @@ void add_top(CLI::App& app, Action& chosen) {
       "q or Ctrl-C ends the view. A narrow terminal shows the most important columns.\n"
       "Delay is the time from the latching of the encoders to the sending of the sample, in the last\n"
       "second. It is shown when bridge and writer run on the same host. ticks/s is the rate between the\n"
-      "last two reports of the process. Counts begin at the start.");
+      "last two reports of the process. Counts begin when this command starts.");
   command->callback([options, &chosen] { chosen = [options] { return top(*options); }; });
 }
 

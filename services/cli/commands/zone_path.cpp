@@ -90,7 +90,7 @@ void add_zone_path(CLI::App& group, Action& chosen) {
   add_axis(*command, "--trolley", Dimension::length, options->to[0], "target of the trolley: 1.05, 105cm");
   add_axis(*command, "--slew", Dimension::angle, options->to[1], "target of the slew axis: 1.57, 90deg");
   add_axis(*command, "--hoist", Dimension::length, options->to[2], "target of the cable length: 0.8, 80cm");
-  const std::string from = "start of the move instead of [start]";
+  const std::string from = "start of the move; default: the position in [start] of the rig file";
   add_axis(*command, "--from-trolley", Dimension::length, options->from[0], from);
   add_axis(*command, "--from-slew", Dimension::angle, options->from[1], from);
   add_axis(*command, "--from-hoist", Dimension::length, options->from[2], from);

@@ -17,7 +17,7 @@ using Disturbances = std::array<Disturbance, kOutputs>;
 /// so that it has no weight.
 [[nodiscard]] Disturbances disturbances_of(const Study& study);
 
-/// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): selects the motion of the menu for
+/// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): selects the listed motion for
 /// which the refitted rival differs most from the predictions of the assumed truth. Each hypothesis is the
 /// truth in turn; the smaller separation counts.
 /// @param a,b hypotheses with fitted values; common causes are fixed

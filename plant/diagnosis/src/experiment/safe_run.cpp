@@ -14,8 +14,8 @@ using plant::State;
 
 constexpr double kLoopStep_s = 0.001;
 constexpr double kLoop_radps = 6;     // natural frequency of the position loop, critically damped
-constexpr double kVoltShare = 0.9;    // of the drive's limit
-constexpr double kSwingShare = 0.95;  // of the limit at which the crane trips
+constexpr double kVoltShare = 0.9;    // of volt_limit_v of the drive
+constexpr double kSwingShare = 0.95;  // of swing_limit_rad, above which the supervisor stops the crane
 
 double& rate(State& state, Axis axis) { return axis == kTrolley ? state.trolley_mps : state.slew_radps; }
 
@@ -36,7 +36,7 @@ class FollowedMotion {
 
   [[nodiscard]] const State& state() const { return state_; }
 
-  /// Applies the voltage computed in the previous tick. @return it
+  /// Applies the voltage that the previous tick has computed. @return this voltage
   plant::PerAxis tick(double time_s) {
     const plant::PerAxis command = next_;
     for (const Axis axis : {kTrolley, kSlew})
@@ -72,7 +72,7 @@ class FollowedMotion {
     return std::clamp(volt, -most, most);
   }
 
-  /// Semi-implicit Euler; friction, steep near standstill, linearised.
+  /// Semi-implicit Euler method. The friction is steep near standstill and is therefore linearised.
   void step(double h) {
     constexpr double kSmall = 1e-4;
     const plant::PerAxis friction = model_.friction_v(state_, actuation_.drive_v);

@@ -7,12 +7,12 @@ namespace crane::diagnosis {
 
 class EquationError {
  public:
-  /// @param drive of the same runs; outlives this
+  /// @param drive  problem of the same runs; must outlive this object
   explicit EquationError(const Problem& drive) : drive_(drive) {}
 
-  /// Learns the disturbance of each axis from the residual of `crane`, and whitens with it.
+  /// Learns the disturbance of each axis from the residual of `crane`; residuals are whitened with it.
   void learn_disturbance(const Replays& crane);
-  /// Whitens with these, by output of the drives. @param crane any, on these runs
+  /// Sets the disturbances for whitening, by output of the drives. @param crane  any crane on these runs
   void whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane);
   [[nodiscard]] std::vector<Disturbance> disturbances() const;
   /// Disturbances of the residual of `crane`, by output of the drives.
@@ -20,7 +20,7 @@ class EquationError {
 
   /// Whitened residual of each piece, start projected out.
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Replays& crane) const;
-  /// Slopes: (at - residuals of crane) / step.
+  /// Slopes by a finite difference: (`at` - residuals(crane)) / `step`.
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane,
                                                     const std::vector<Eigen::VectorXd>& at,
                                                     double step) const;

@@ -16,8 +16,8 @@ namespace {
 constexpr double kNut_radps = 2 * std::numbers::pi * 25, kGear_radps = 2 * std::numbers::pi * 15;
 constexpr double kContactDampingRatio = 0.25;
 constexpr double kSoftShare = 0.02;  // depth of full damping, as a share of the gap
-/// Speed over which the guide friction changes its direction [m/s or rad/s]. An explicit integrator with
-/// steps of 2.5 ms is stable with this value.
+/// Width of the step of the guide friction at speed 0 [m/s or rad/s]. An explicit integrator with steps of
+/// 2.5 ms is stable with this value.
 constexpr double kGuideSmoothing = 0.003;
 
 class Backlash final : public Term {

@@ -53,9 +53,9 @@ class Session {
 
   /// Runs one tick at 0 V with closed brakes, without toggling the watchdog output. @throws Ended
   const Sample& rest();
-  /// Runs one tick and toggles the watchdog output. @param drive_v  V; the sign of the drive in the rig file
-  /// is
-  ///   applied, so that positive should move outward. @throws Ended
+  /// Runs one tick and toggles the watchdog output. @throws Ended
+  /// @param drive_v  V; the session applies the sign of the drive in the rig file: a positive voltage moves
+  ///   the axis outwards
   const Sample& awake(const std::array<double, kDrives>& drive_v, const std::array<bool, kDrives>& release);
 
   /// Calls rest() for at least `duration_s`.

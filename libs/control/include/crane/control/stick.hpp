@@ -2,8 +2,8 @@
 /// Stick mode: an operator commands the speeds of trolley, slew and hoist. The load comes to rest together
 /// with the axes.
 ///
-/// 1. The unshaped speed u of each axis follows the commanded speed (`wanted`). An input shaper (shaper.hpp)
-/// delays parts
+/// 1. The unshaped speed u of each axis follows the commanded speed (`wanted`).
+///    An input shaper (shaper.hpp) delays parts
 ///    of each change of u,
 ///      v(t) = sum_i w_i u(t - t_i),   zv: w = 1/2, 1/2; t = 0, T/2   (Singer and Seering 1990)
 ///    The weights w_i are positive and their sum is 1, so that v stays between the smallest and the largest

@@ -48,9 +48,9 @@ class RunTable {
 /// no crane topics, or is older than the first version; its topics are those of version 1.
 [[nodiscard]] std::optional<std::uint32_t> messages_version(const McapReader& recording);
 
-/// Table of a recorded run. @throws DecodeError, SchemaError when the crane topics cannot be decoded;
-/// SchemaError
-///   that names both versions when the messages have another version
+/// Table of a recorded run.
+/// @throws DecodeError, SchemaError when the crane topics cannot be decoded
+/// @throws SchemaError that names both versions when the messages have another version
 [[nodiscard]] Table run_table(McapReader& recording);
 
 }  // namespace crane::recording

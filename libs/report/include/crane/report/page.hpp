@@ -6,8 +6,8 @@
 ///   Page page{.title = "Maneuver 1", .summary = "Two controllers.", .sections = {}};
 ///   page.sections.push_back({.title = "Swing", .blocks = {
 ///       Verdict{.text = "Both settle.", .tone = Tone::good},
-///       LinePlot{.title = "radial", .x_label = "time [s]", .y_label = "deg", .x = time_s, .series =
-///       {...}}}});
+///       LinePlot{.title = "radial", .x_label = "time [s]", .y_label = "deg", .x = time_s,
+///                .series = {...}}}});
 ///   write_html("out/page.html", page);
 #include <filesystem>
 #include <stdexcept>

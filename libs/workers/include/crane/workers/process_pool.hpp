@@ -38,9 +38,9 @@ struct Tasks {
 };
 
 /// `failure` of Tasks::ended is empty after exit code 0, otherwise "exit code 1" or "signal 11".
-/// @throws std::system_error when a process cannot be started, and exceptions of take and ended; running
-/// tasks
-///   are killed first
+/// Before an exception leaves this function, it kills the running tasks.
+/// @throws std::system_error when a process cannot be started
+/// @throws the exceptions of take and ended
 void run(const Tasks& tasks);
 
 /// A Tasks::ended for tasks that must not fail. @throws std::runtime_error for a failure
