@@ -62,6 +62,7 @@ std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
     return visitor.loop_back
                ? ""
                : "from another computer this dashboard is read-only: start it with --operator-token FILE";
+  if (visitor.token_ignored) return "too many wrong tokens from this computer: try again in a second";
   if (visitor.token.empty()) return "the operator token is needed";
   return guesses(rules, visitor) ? "the operator token is wrong" : "";
 }

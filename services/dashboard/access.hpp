@@ -15,6 +15,8 @@ struct Visitor {
   std::string_view fetched{};      ///< header Sec-Fetch-Site; empty: an old browser, or none
   std::string_view fetched_for{};  ///< header Sec-Fetch-Dest: "document" for a followed link
   std::string_view token{};        ///< token of the header Authorization: Bearer; empty: none
+  bool token_ignored =
+      false;  ///< true: the token is not compared, because the client sent too many wrong ones
 };
 
 struct AccessRules {

@@ -4,46 +4,58 @@
 
 namespace crane::dashboard {
 
-bool ConnectionLimits::admit(const std::string& address, bool foreign) {
-  if (open_ >= kMostConnections) return false;
-  if (foreign) {
-    if (foreign_ >= kMostForeignConnections) return false;
-    auto& count = of_address_[address];
-    if (count >= kMostOfOneAddress) return false;
-    ++count;
-    ++foreign_;
-  }
-  ++open_;
-  return true;
+bool ConnectionLimits::has_place(const Client& client, Kind kind) const {
+  std::size_t sum = 0;
+  for (const auto& [other, count] : open_)
+    if (other.foreign == client.foreign) sum += count.of(kind);
+  return sum < (kind == Kind::viewer ? kMostViewers : kMostOfOneSide);
 }
 
-void ConnectionLimits::release(const std::string& address, bool foreign) {
-  --open_;
-  if (!foreign) return;
-  --foreign_;
-  const auto found = of_address_.find(address);
-  if (--found->second == 0) of_address_.erase(found);
+std::size_t ConnectionLimits::open(const Client& client, Kind kind) const {
+  const auto found = open_.find(client);
+  return found == open_.end() ? 0 : found->second.of(kind);
+}
+
+std::size_t ConnectionLimits::open() const {
+  std::size_t sum = 0;
+  for (const auto& [client, count] : open_) sum += count.connections;
+  return sum;
+}
+
+bool ConnectionLimits::must_yield(const Client& holder, const Client& to, Kind kind) const {
+  return holder.foreign == to.foreign && open(holder, kind) > open(to, kind);
+}
+
+void ConnectionLimits::remove(const Client& client, Kind kind) {
+  const auto found = open_.find(client);
+  --found->second.of(kind);
+  if (found->second.connections == 0 && found->second.viewers == 0) open_.erase(found);
 }
 
 bool ConnectionLimits::reserve(std::size_t bytes) {
-  if (answers_bytes_ + bytes > kMostAnswers_bytes) return false;
+  if (!has_room(bytes)) return false;
   answers_bytes_ += bytes;
   return true;
 }
 
-std::unique_ptr<Admission> Admission::ask(std::shared_ptr<ConnectionLimits> limits, std::string address,
-                                          bool foreign) {
-  if (!limits->admit(address, foreign)) return nullptr;
-  return std::unique_ptr<Admission>{new Admission{std::move(limits), std::move(address), foreign}};
+Admission::Admission(std::shared_ptr<ConnectionLimits> limits, Client client)
+    : limits_{std::move(limits)}, client_{std::move(client)} {
+  limits_->add(client_, Kind::connection);
 }
 
 Admission::~Admission() {
   limits_->free(reserved_bytes_);
-  limits_->release(address_, foreign_);
+  if (viewer_) limits_->remove(client_, Kind::viewer);
+  limits_->remove(client_, Kind::connection);
+}
+
+void Admission::become_viewer() {
+  if (!std::exchange(viewer_, true)) limits_->add(client_, Kind::viewer);
 }
 
 bool Admission::reserve(std::size_t bytes) {
   limits_->free(std::exchange(reserved_bytes_, 0));
+  if (bytes <= kShortAnswer_bytes) return true;
   if (!limits_->reserve(bytes)) return false;
   reserved_bytes_ = bytes;
   return true;

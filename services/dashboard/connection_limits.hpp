@@ -1,5 +1,7 @@
 #pragma once
-/// Limits the number of connections and the bytes of unread answers. Pure: no sockets.
+/// Limits the number of connections and the bytes of unread answers, and shares the connections between the
+/// clients. Pure: no sockets.
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -7,55 +9,77 @@
 
 namespace crane::dashboard {
 
-inline constexpr std::size_t kMostConnections = 64;
-/// Largest number of connections from other computers. A flood from other computers therefore leaves
-/// connections for the operator at the rig.
-inline constexpr std::size_t kMostForeignConnections = 48;
-/// Largest number of connections from one address, so that one computer cannot block the others. A browser
-/// opens seven.
-inline constexpr std::size_t kMostOfOneAddress = 16;
-/// Largest number of viewers. Other connections can be displaced (server.hpp); therefore viewers cannot
-/// occupy all connections.
-inline constexpr std::size_t kMostViewers = 48;
-/// Largest number of bytes of answers that clients have not read yet: four times the longest history of a
-/// topic.
+/// Largest number of connections of other computers, and of this computer. Neither side can therefore keep
+/// out the other one. A browser opens seven connections.
+inline constexpr std::size_t kMostOfOneSide = 48;
+inline constexpr std::size_t kMostConnections = 2 * kMostOfOneSide;
+/// Largest number of viewers of one side. The remaining connections can always be displaced (server.hpp).
+inline constexpr std::size_t kMostViewers = 32;
+/// Largest number of bytes of long answers that clients have not read yet: four times the longest history of
+/// a topic.
 inline constexpr std::size_t kMostAnswers_bytes = 32U << 20U;
+/// A shorter answer is always permitted: an operator receives the answer to a request even while other
+/// clients do not read their answers. The number of connections bounds these answers to 6 MB.
+inline constexpr std::size_t kShortAnswer_bytes = 64U << 10U;
+
+/// Those who share the connections fairly: one computer, or one user of this computer.
+struct Client {
+  bool foreign = false;  ///< true: on another computer
+  std::string name;      ///< IPv4 address, network of an IPv6 address (64 bits), or user
+  auto operator<=>(const Client&) const = default;
+};
+
+enum class Kind { connection, viewer };  ///< each viewer is also a connection
 
 class ConnectionLimits {
  public:
-  /// @return false when the connection is refused; it is then not counted
-  [[nodiscard]] bool admit(const std::string& address, bool foreign);
-  void release(const std::string& address, bool foreign);
-  [[nodiscard]] std::size_t open() const { return open_; }
+  /// @return true when the side of the client has a free place
+  [[nodiscard]] bool has_place(const Client& client, Kind kind) const;
+  [[nodiscard]] std::size_t open(const Client& client, Kind kind) const;
+  [[nodiscard]] std::size_t open() const;
+  /// @return true when a client that needs a place may take one from `holder`, a client of the same side: the
+  /// holder has more. With n clients on one side, none loses any of its first 48/n connections.
+  [[nodiscard]] bool must_yield(const Client& holder, const Client& to, Kind kind) const;
+
+  void add(const Client& client, Kind kind) { ++open_[client].of(kind); }
+  void remove(const Client& client, Kind kind);
 
   /// @return false when too many bytes wait; the new bytes are then not counted
   [[nodiscard]] bool reserve(std::size_t bytes);
   void free(std::size_t bytes) { answers_bytes_ -= bytes; }
+  /// @return true when as many more bytes may wait
+  [[nodiscard]] bool has_room(std::size_t bytes) const {
+    return answers_bytes_ + bytes <= kMostAnswers_bytes;
+  }
 
  private:
-  std::size_t open_ = 0, foreign_ = 0, answers_bytes_ = 0;
-  std::map<std::string, std::size_t> of_address_;  ///< connections by address; other computers only
+  struct Count {
+    std::size_t connections = 0, viewers = 0;
+    std::size_t& of(Kind kind) { return kind == Kind::viewer ? viewers : connections; }
+    [[nodiscard]] std::size_t of(Kind kind) const { return kind == Kind::viewer ? viewers : connections; }
+  };
+  std::size_t answers_bytes_ = 0;
+  std::map<Client, Count> open_;
 };
 
 /// One admitted connection; counts during its lifetime.
 class Admission {
  public:
-  /// @return null when the connection is refused
-  [[nodiscard]] static std::unique_ptr<Admission> ask(std::shared_ptr<ConnectionLimits> limits,
-                                                      std::string address, bool foreign);
+  Admission(std::shared_ptr<ConnectionLimits> limits, Client client);
   ~Admission();
   Admission(const Admission&) = delete;
   Admission& operator=(const Admission&) = delete;
 
+  [[nodiscard]] const Client& client() const { return client_; }
+  /// The connection becomes a viewer.
+  void become_viewer();
   /// Replaces the reservation. @return false when the answer must not be stored
   [[nodiscard]] bool reserve(std::size_t bytes);
 
  private:
-  Admission(std::shared_ptr<ConnectionLimits> limits, std::string address, bool foreign)
-      : limits_{std::move(limits)}, address_{std::move(address)}, foreign_{foreign} {}
   std::shared_ptr<ConnectionLimits> limits_;
-  std::string address_;
-  bool foreign_;
+  Client client_;
+  bool viewer_ = false;
   std::size_t reserved_bytes_ = 0;
 };
 

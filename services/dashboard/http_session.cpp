@@ -36,6 +36,8 @@ constexpr const char* kReportRules =
     "frame-ancestors "
     "'none'";
 
+constexpr const char* kTooManyAnswers = "too many answers wait for clients that do not read them";
+
 class HttpSession final : public Displaceable, public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission)
@@ -44,12 +46,11 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     loop_back_ = stream_.socket().remote_endpoint(ignored).address().is_loopback();
   }
 
-  bool displace() override {
-    if (guesses_) return false;
+  void displace() override {
     admission_.reset();
+    guess_.cancel();
     error_code ignored;
     stream_.socket().close(ignored);
-    return true;
   }
 
   void read() {
@@ -59,11 +60,23 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     stream_.expires_after(kRequestPatience);
     http::async_read_header(stream_, buffer_, *parser_,
                             [self = shared_from_this()](error_code error, std::size_t) {
+                              self->judge_token();
                               error ? self->was_read(error) : self->read_body();
                             });
   }
 
  private:
+  /// Compares the token of the request once, and counts a wrong one at once: an attacker who disconnects
+  /// before the answer cannot guess more often.
+  void judge_token() {
+    token_ignored_ = token_wrong_ = false;
+    if (!admission_ || !parser_->is_header_done() || visitor().token.empty()) return;
+    const auto now = std::chrono::steady_clock::now();
+    token_ignored_ = !server_.guesses().permits(admission_->client(), now);
+    token_wrong_ = !token_ignored_ && guesses(server_.rules(), visitor());
+    if (token_wrong_) server_.guesses().count(admission_->client(), now);
+  }
+
   void read_body() {
     const auto& request = parser_->get();
     const bool uploads = request.method() == http::verb::post &&
@@ -89,7 +102,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
     // A wrong token is answered before any other error: an immediate refusal of the body would reveal that
     // the token is wrong.
-    if (parser_->is_header_done() && guesses(server_.rules(), visitor())) return answer_guess();
+    if (token_wrong_) return answer_guess();
     if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
     if (error == http::error::body_limit)
       return refuse(413, "the body is longer than 4096 bytes, or an upload than 16 MB");
@@ -108,7 +121,9 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
             .origin = view_of(request[http::field::origin]),
             .fetched = view_of(request["Sec-Fetch-Site"]),
             .fetched_for = view_of(request["Sec-Fetch-Dest"]),
-            .token = bearer_of(view_of(request[http::field::authorization]))};
+            .token =
+                token_ignored_ ? std::string_view{} : bearer_of(view_of(request[http::field::authorization])),
+            .token_ignored = token_ignored_};
   }
 
   void upgrade() {
@@ -116,8 +131,9 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
       server_.refuse();
       return refuse(403, "this dashboard answers its own pages only; --allow-origin permits others");
     }
-    if (server_.has_most_viewers()) return refuse(503, "too many viewers: close one");
     if (!admission_) return;  // displaced
+    if (!server_.admits_viewer(admission_->client())) return refuse(503, "too many viewers: close one");
+    admission_->become_viewer();
     stream_.expires_never();
     start_viewer_session(stream_.release_socket(), parser_->release(), server_, std::move(admission_));
   }
@@ -130,9 +146,15 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
                          .body = request.body(),
                          .seat_key = text_of(request["X-Crane-Seat"]),
                          .visitor = visitor()};
+    if (!admission_) return;  // displaced
+    const bool history = view_of(request.target()).starts_with("/api/history");
+    const auto now = std::chrono::steady_clock::now();
+    if (history && !server_.permits_history(admission_->client(), now)) return refuse(503, kTooManyAnswers);
     stream_.expires_never();  // the supervisor answers within 2 s; otherwise RequestSender answers
     server_.api().handle(api, [self = shared_from_this(), head = request.method() == http::verb::head,
-                               keep = request.keep_alive()](ApiAnswer answer) {
+                               keep = request.keep_alive(), history, now](ApiAnswer answer) {
+      if (history && self->admission_)
+        self->server_.histories().count(self->admission_->client(), now, answer.body.size());
       if (answer.status == 403) self->server_.refuse();
       self->send(std::move(answer), keep, head);
     });
@@ -142,7 +164,6 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
   void answer_guess() {
     stream_.expires_never();
     server_.refuse();
-    guesses_ = true;
     guess_.expires_after(kGuessDelay);
     guess_.async_wait(
         [self = shared_from_this()](error_code) { self->refuse(403, "the operator token is wrong"); });
@@ -155,8 +176,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
   void send(ApiAnswer answer, bool keep, bool head_only) {
     if (!admission_) return;  // displaced
     if (!admission_->reserve(answer.body.size())) {
-      answer = {.status = 503,
-                .body = R"({"error":"too many answers wait for clients that do not read them"})"};
+      answer = {.status = 503, .body = nlohmann::json{{"error", kTooManyAnswers}}.dump()};
       keep = false;
     }
     answer_ = std::move(answer);
@@ -198,7 +218,8 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
   Server& server_;
   std::unique_ptr<Admission> admission_;
   boost::asio::steady_timer guess_{stream_.get_executor()};
-  bool guesses_ = false;  ///< true: the answer to a wrong token is delayed
+  bool token_wrong_ = false;    ///< the answer to this request is delayed
+  bool token_ignored_ = false;  ///< the token of this request has not been compared
   bool loop_back_ = false;
   std::unique_ptr<Upload> upload_;
   beast::flat_buffer buffer_{kLongestHeader_bytes + kLongestBody_bytes};

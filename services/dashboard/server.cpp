@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "crane/runtime/process.hpp"
+#include "dashboard/client_name.hpp"
 #include "dashboard/http_session.hpp"
 #include "dashboard/viewer_session.hpp"
 #include "observation/observer.hpp"
@@ -15,6 +16,10 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
+
+/// New connections that the kernel queues. Beyond them a client waits 1 s, then 2 s, before it tries again;
+/// the server accepts thousands of connections per second.
+constexpr int kBacklog = 512;
 
 }  // namespace
 
@@ -30,7 +35,7 @@ Server::Server(const std::string& address, unsigned short port, About about, Acc
   acceptor_.open(endpoint.protocol());
   acceptor_.set_option(tcp::acceptor::reuse_address{true});
   acceptor_.bind(endpoint);
-  acceptor_.listen(static_cast<int>(kMostConnections));
+  acceptor_.listen(kBacklog);
 }
 
 unsigned short Server::port() const { return acceptor_.local_endpoint().port(); }
@@ -83,25 +88,35 @@ void Server::accept() {
 
 void Server::welcome(tcp::socket socket) {
   error_code error;
-  const auto peer = socket.remote_endpoint(error).address();
+  (void)socket.remote_endpoint(error);
   if (error) return;
-  const auto address = peer.to_string();
-  const bool foreign = !peer.is_loopback();
-  auto admission = Admission::ask(limits_, address, foreign);
-  while (!admission && displace_oldest(address, foreign))
-    admission = Admission::ask(limits_, address, foreign);
-  if (!admission) return;
+  auto client = client_of(socket);
+  if (!limits_->has_place(client, Kind::connection) && !displace_for(client, Kind::connection)) return;
+  auto admission = std::make_unique<Admission>(limits_, client);
   std::erase_if(displaceable_, [](const Displaced& entry) { return entry.session.expired(); });
-  displaceable_.push_back({start_http_session(std::move(socket), *this, std::move(admission)), address});
+  displaceable_.push_back({start_http_session(std::move(socket), *this, std::move(admission)),
+                           std::move(client), Kind::connection});
 }
 
-bool Server::displace_oldest(const std::string& address, bool foreign) {
-  const auto oldest = std::ranges::find_if(displaceable_, [&](const Displaced& entry) {
-    const auto session = entry.session.lock();
-    return session && (!foreign || entry.address == address) && session->displace();
-  });
-  if (oldest == displaceable_.end()) return false;
-  displaceable_.erase(oldest);
+bool Server::admits_viewer(const Client& client) {
+  return limits_->has_place(client, Kind::viewer) || displace_for(client, Kind::viewer);
+}
+
+bool Server::displace_for(const Client& client, Kind kind) {
+  auto best = displaceable_.end();
+  const auto rank = [&](const Displaced& entry) {
+    return std::pair{limits_->open(entry.client, kind), entry.kind == Kind::connection};
+  };
+  for (auto entry = displaceable_.begin(); entry != displaceable_.end(); ++entry) {
+    if (entry->session.expired() || (kind == Kind::viewer && entry->kind != Kind::viewer)) continue;
+    const bool own = entry->client == client && entry->kind == Kind::connection;
+    if (!own && !limits_->must_yield(entry->client, client, kind)) continue;
+    if (best == displaceable_.end() || rank(*entry) > rank(*best)) best = entry;
+  }
+  if (best == displaceable_.end()) return false;
+  const auto session = best->session.lock();
+  displaceable_.erase(best);
+  session->displace();
   return true;
 }
 

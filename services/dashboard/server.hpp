@@ -11,6 +11,7 @@
 #include "dashboard/api.hpp"
 #include "dashboard/connection_limits.hpp"
 #include "dashboard/inbox.hpp"
+#include "dashboard/rate_limit.hpp"
 
 namespace crane::dashboard {
 
@@ -21,9 +22,7 @@ inline constexpr std::uint32_t kLongestHeader_bytes = 8192;
 inline constexpr std::uint64_t kLongestBody_bytes = 4096;
 inline constexpr std::chrono::seconds kUploadPatience{120};  ///< for an upload of 16 MB
 inline constexpr std::chrono::seconds kRequestPatience{
-    10};  ///< for a whole request, and between two requests
-/// Delay of the answer to a wrong token. It occupies its connection meanwhile: at most 64 guesses per second.
-inline constexpr std::chrono::milliseconds kGuessDelay{1000};
+    10};                                                    ///< for a whole request, and between two requests
 inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then disconnected
 /// Period of the frames to the page and of the documents.
 inline constexpr std::chrono::milliseconds kFramePeriod{16};
@@ -32,9 +31,8 @@ inline constexpr std::chrono::milliseconds kFramePeriod{16};
 class Displaceable {
  public:
   virtual ~Displaceable() = default;
-  /// Ends the connection and releases its admission at once. @return false when the connection must not be
-  /// displaced, because its answer to a wrong token is delayed
-  [[nodiscard]] virtual bool displace() = 0;
+  /// Ends the connection and releases its admission at once.
+  virtual void displace() = 0;
 };
 
 class Server {
@@ -62,7 +60,18 @@ class Server {
   [[nodiscard]] const AccessRules& rules() const { return rules_; }
   void join(const std::shared_ptr<ViewerSession>& viewer) { viewers_.insert(viewer); }
   void leave(const std::shared_ptr<ViewerSession>& viewer);
-  [[nodiscard]] bool has_most_viewers() const { return viewers_.size() >= kMostViewers; }
+  /// @return true when a connection of this client may become a viewer
+  [[nodiscard]] bool admits_viewer(const Client& client);
+  /// @return true when the longest answer may be made for this client now. The check precedes the work.
+  [[nodiscard]] bool permits_history(const Client& client, RateLimit::Time now) {
+    return limits_->has_room(observation::History::kLargestTopic_bytes) && histories_.permits(client, now);
+  }
+  /// Adds a viewer to the connections that can be displaced.
+  void add_viewer(std::weak_ptr<Displaceable> viewer, const Client& client) {
+    displaceable_.push_back({std::move(viewer), client, Kind::viewer});
+  }
+  [[nodiscard]] RateLimit& guesses() { return guesses_; }
+  [[nodiscard]] RateLimit& histories() { return histories_; }
   /// Permits one upload at a time. @return false while another upload is in progress
   [[nodiscard]] bool begin_upload() { return !std::exchange(uploads_, true); }
   void end_upload() { uploads_ = false; }
@@ -73,10 +82,11 @@ class Server {
  private:
   void accept();
   void welcome(boost::asio::ip::tcp::socket socket);
-  /// Closes the oldest connection that is not a viewer, to admit a client at `address`. A client on another
-  /// computer displaces only connections of its own address. A program that occupies all connections
-  /// therefore cannot keep out an operator. @return false when there is no such connection
-  bool displace_oldest(const std::string& address, bool foreign);
+  /// Ends a connection, or a viewer, to admit one of `client`: of the client of the same side that has the
+  /// most, if it has more than `client`; otherwise a connection of `client` itself that is no viewer. The
+  /// oldest is ended, viewers last. A program that occupies all connections therefore keeps out no other
+  /// client. @return false when there is no such connection
+  bool displace_for(const Client& client, Kind kind);
   void take_samples();
   void beat();
   [[nodiscard]] ServerCounts counts() const;
@@ -92,9 +102,11 @@ class Server {
   std::set<std::shared_ptr<ViewerSession>> viewers_;
   struct Displaced {
     std::weak_ptr<Displaceable> session;
-    std::string address;
+    Client client;
+    Kind kind;
   };
   std::deque<Displaced> displaceable_;  ///< in the order of their begin
+  RateLimit guesses_{kMostGuesses}, histories_{kMostHistory_bytes};
   std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;
   bool uploads_ = false;

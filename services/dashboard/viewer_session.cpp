@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/runtime/process.hpp"
+#include "observation/observer.hpp"
 
 namespace crane::dashboard {
 namespace {
@@ -67,8 +68,14 @@ void ViewerSession::accept(UpgradeRequest request) {
     if (kind == websocket::frame_type::ping && !spend_allowance()) end();
   });
   socket_.async_accept(request_, [self = shared_from_this()](error_code error) {
-    if (!error) self->accepted();
+    if (!error && self->admission_) self->accepted();  // without admission: displaced
   });
+}
+
+void ViewerSession::displace() {
+  admission_.reset();
+  beast::get_lowest_layer(socket_).close();
+  end();
 }
 
 void ViewerSession::accepted() {
@@ -222,8 +229,10 @@ void ViewerSession::end() {
 
 void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,
                           Server& server, std::unique_ptr<Admission> admission) {
-  std::make_shared<ViewerSession>(std::move(socket), server, std::move(admission))
-      ->accept(std::move(request));
+  const auto client = admission->client();
+  const auto session = std::make_shared<ViewerSession>(std::move(socket), server, std::move(admission));
+  session->accept(std::move(request));
+  server.add_viewer(session, client);
 }
 
 }  // namespace crane::dashboard

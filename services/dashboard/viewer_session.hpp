@@ -12,12 +12,13 @@
 
 namespace crane::dashboard {
 
-class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
+class ViewerSession final : public Displaceable, public std::enable_shared_from_this<ViewerSession> {
  public:
   using UpgradeRequest = boost::beast::http::request<boost::beast::http::string_body>;
   ViewerSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission);
 
   void accept(UpgradeRequest request);
+  void displace() override;
   void send_sample(const observation::SamplePtr& sample);
   void send_document(Document document, const Bytes& text, std::int64_t time_ns);
   void send_time(std::int64_t time_ns);

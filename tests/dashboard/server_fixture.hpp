@@ -24,8 +24,8 @@ using nlohmann::json;
 /// A dashboard whose supervisor accepts everything but "arm".
 class ServerTest : public testing::Test {
  protected:
-  explicit ServerTest(AccessRules rules = {}, const RunsOptions& runs = {})
-      : server_{"127.0.0.1",
+  explicit ServerTest(AccessRules rules = {}, const RunsOptions& runs = {}, const char* address = "127.0.0.1")
+      : server_{address,
                 0,
                 {.version = "0", .crane = "test", .domain = 0, .rig = ""},
                 std::move(rules),

@@ -2,13 +2,10 @@
 /// attacker knows what discovery and its own readers receive, and sends to all ports of the stack.
 /// Permitted: the crane stops. Forbidden: motion.
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <gmock/gmock.h>
-#include <sched.h>
 
 #include <functional>
 #include <memory>
-#include <system_error>
 
 #include "../interop/two_hosts.hpp"
 #include "../system/stranger.hpp"
@@ -18,33 +15,8 @@
 namespace crane::hostile {
 namespace {
 
+using hosts::OnHost;
 using hosts::TwoHosts;
-
-/// While this object exists, the calling thread is on another host; sockets and threads that it creates
-/// remain there.
-class OnHost {
- public:
-  explicit OnHost(const std::string& host) : own_{opened("/proc/thread-self/ns/net")} {
-    const int other = opened("/run/netns/" + host);
-    const int result = ::setns(other, CLONE_NEWNET);
-    ::close(other);
-    if (result != 0) throw std::system_error{errno, std::generic_category(), "setns"};
-  }
-  ~OnHost() {
-    ::setns(own_, CLONE_NEWNET);
-    ::close(own_);
-  }
-  OnHost(const OnHost&) = delete;
-  OnHost& operator=(const OnHost&) = delete;
-
- private:
-  static int opened(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) throw std::system_error{errno, std::generic_category(), path};
-    return file;
-  }
-  int own_;
-};
 
 class RemoteAttack : public DiscoveryAttack {
  protected:

@@ -1,12 +1,16 @@
 #pragma once
 /// Two hosts on this computer: network namespaces joined by a veth pair. Needs root.
+#include <fcntl.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "../recording/temporary_directory.hpp"
@@ -72,6 +76,10 @@ class TwoHosts {
   }
   /// Device of the pair in the far host.
   [[nodiscard]] std::string far_device() const { return "cf" + std::to_string(::getpid()); }
+  /// Adds an address to the far host, as if one more computer were on the network.
+  void add_far(const std::string& address) const {
+    run("ip -n " + far_ + " addr add " + address + "/24 dev " + far_device());
+  }
   void unplug_far() const { run("ip -n " + far_ + " link set cf" + std::to_string(::getpid()) + " down"); }
   static constexpr const char* kNear = "10.77.0.1";
   static constexpr const char* kFar = "10.77.0.2";
@@ -90,6 +98,32 @@ class TwoHosts {
 
   std::string near_, far_;
   bool ok_ = false;
+};
+
+/// While this object exists, the calling thread is on another host; sockets and threads that it creates
+/// remain there.
+class OnHost {
+ public:
+  explicit OnHost(const std::string& host) : own_{opened("/proc/thread-self/ns/net")} {
+    const int other = opened("/run/netns/" + host);
+    const int result = ::setns(other, CLONE_NEWNET);
+    ::close(other);
+    if (result != 0) throw std::system_error{errno, std::generic_category(), "setns"};
+  }
+  ~OnHost() {
+    ::setns(own_, CLONE_NEWNET);
+    ::close(own_);
+  }
+  OnHost(const OnHost&) = delete;
+  OnHost& operator=(const OnHost&) = delete;
+
+ private:
+  static int opened(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) throw std::system_error{errno, std::generic_category(), path};
+    return file;
+  }
+  int own_;
 };
 
 /// A running `crane` command on one of the hosts. Ctrl-C ends it.
