@@ -19,19 +19,12 @@ struct Column {
 using Mass = motion::Mass<double>;
 using Angles = motion::Angles<double>;
 
-/// Without a load the swing has no influence on the drives; the angles are then 0.
-Angles angles_of(const Parameters& p, const State& s) {
-  return p.load_mass_kg > 0 ? Angles{s.radial_rad, s.tangential_rad} : Angles{0, 0};
-}
-
 bool tilts(const Parameters& p) { return p.tilt_sine != 0; }
 
 Mass mass(const Parameters& p, const State& s, const Angles& angles) {
   return tilts(p) ? tilted::mass(p, angles, s.trolley_m, s.cable_m)
                   : motion::mass(p, angles, s.trolley_m, s.cable_m);
 }
-Mass mass(const Parameters& p, const State& s) { return mass(p, s, angles_of(p, s)); }
-
 /// Angles in the slewing frame.
 Angles level_angles(const Parameters& p, const State& s) {
   return tilted::level(p, Angles{s.radial_rad, s.tangential_rad});
@@ -82,10 +75,18 @@ Column solve(const Mass& m, const Column& r, const Locks& locks) {
 
 }  // namespace
 
+Angles swing_angles(const Parameters& p, const State& s) noexcept {
+  return p.load_mass_kg > 0 ? Angles{s.radial_rad, s.tangential_rad} : Angles{0, 0};
+}
+
 Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
                             const Locks& locks) noexcept {
+  return accelerations(p, s, swing_angles(p, s), forces, cable_mps2, locks);
+}
+
+Accelerations accelerations(const Parameters& p, const State& s, const Angles& angles, const Forces& forces,
+                            double cable_mps2, const Locks& locks) noexcept {
   const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
-  const Angles angles = angles_of(p, s);
   motion::Motion<double> at = motion_of(s, angles, hoisting);
   if (tilts(p)) at = tilted::level(p, at);
   constexpr auto kMoving = motion::Cable::moving;
@@ -104,9 +105,9 @@ Accelerations accelerations(const Parameters& p, const State& s, const Forces& f
           .cable_mps2 = hoisting};
 }
 
-SwingResponse swing_response(const Parameters& p, const State& s, double trolley_mps2, double slew_radps2,
-                             const Locks& locks) noexcept {
-  const Mass m = mass(p, s);
+SwingResponse swing_response(const Parameters& p, const State& s, const Angles& angles, double trolley_mps2,
+                             double slew_radps2, const Locks& locks) noexcept {
+  const Mass m = mass(p, s, angles);
   SwingResponse response;
   if (!locks.radial && m.m22 > 0)
     response.radial_radps2 = -(m.m12 * trolley_mps2 + m.m23 * slew_radps2) / m.m22;
@@ -116,7 +117,7 @@ SwingResponse swing_response(const Parameters& p, const State& s, double trolley
 }
 
 DriveResponse drive_response(const Parameters& p, const State& s, const Locks& locks) noexcept {
-  const Mass m = mass(p, s);
+  const Mass m = mass(p, s, swing_angles(p, s));
   Locks held = locks;
   held.acceleration = {};
   const Column by_force = solve(m, {.x = 1, .phi = 0, .gamma = 0, .theta = 0}, held),
@@ -124,7 +125,7 @@ DriveResponse drive_response(const Parameters& p, const State& s, const Locks& l
   return {.trolley_mps2_pn = by_force.x, .slew_radps2_pnm = by_torque.gamma, .coupling = by_force.gamma};
 }
 
-double cable_tension_n(const Parameters& p, const State& s, const Accelerations& q) noexcept {
+CableTension cable_tension(const Parameters& p, const State& s) noexcept {
   const Angles a = level_angles(p, s);
   const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
   const double x = p.tilt_cosine * s.trolley_m, x_rate = p.tilt_cosine * s.trolley_mps;
@@ -132,10 +133,13 @@ double cable_tension_n(const Parameters& p, const State& s, const Accelerations&
   const double ex = -a.ct * a.sf, ey = a.st;
   const double ex_rate = a.st * a.sf * t - a.ct * a.cf * f, ey_rate = a.ct * t;
   const double along_jib = -a.ct * std::sin(s.radial_rad);  // component of the unit vector
-  const double turning = q.trolley_mps2 * along_jib + q.cable_mps2 - l * (f * f * a.ct * a.ct + t * t);
+  const double centripetal = l * (f * f * a.ct * a.ct + t * t) + g * g * (x * ex + l * (ex * ex + ey * ey));
   const double coriolis = 2 * g * (x_rate * ey + l * (ex_rate * ey - ey_rate * ex));
-  const double frame = q.slew_radps2 * x * ey - g * g * (x * ex + l * (ex * ex + ey * ey));
-  return p.load_mass_kg * (p.gravity_mps2 * a.ct * a.cf - turning - coriolis - frame);
+  const double m = p.load_mass_kg;
+  return {.free_n = m * (p.gravity_mps2 * a.ct * a.cf + centripetal - coriolis),
+          .by_trolley_kg = -m * along_jib,
+          .by_slew_kgm = -m * x * ey,
+          .by_cable_kg = -m};
 }
 
 State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& locks) noexcept {
@@ -167,7 +171,7 @@ State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& loc
 }
 
 Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
-  const Mass m = mass(p, s);
+  const Mass m = mass(p, s, swing_angles(p, s));
   Eigen::Matrix4d matrix;
   matrix << m.m11, m.m12, m.m13, m.m14,  //
       m.m12, m.m22, m.m23, 0,            //
@@ -177,7 +181,11 @@ Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
 }
 
 Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& p, const State& s) noexcept {
-  const Angles a = level_angles(p, s);
+  return load_jacobian(p, s, level_angles(p, s));
+}
+
+Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& p, const State& s,
+                                          const motion::Angles<double>& a) noexcept {
   const double l = s.cable_m;
   Eigen::Matrix<double, 3, 4> j;
   j << p.tilt_cosine, -l * a.ct * a.cf, -l * a.st, l * a.st * a.sf,   //
@@ -190,7 +198,7 @@ Eigen::Vector3d load_velocity_mps(const Parameters& p, const State& s) noexcept 
   const Angles a = level_angles(p, s);
   const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
   const Eigen::Vector3d along_cable{-a.ct * a.sf, a.st, -a.ct * a.cf};
-  return load_jacobian(p, s) * rates + along_cable * s.cable_mps;
+  return load_jacobian(p, s, a) * rates + along_cable * s.cable_mps;
 }
 
 double energy_j(const Parameters& p, const State& s) noexcept {

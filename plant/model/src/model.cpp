@@ -134,7 +134,7 @@ State Model::displaced(const State& state, const InnerState& inner) const noexce
 }
 
 Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxis& friction,
-                     const InnerState& inner) const noexcept {
+                     const InnerState& inner, InnerEquations& equations) const noexcept {
   const Parameters& p = parameters_;
   const PerAxis& v = actuation.drive_v;
   Forces sum;
@@ -143,7 +143,8 @@ Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxi
   sum.slew_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv * (v[kSlew] - friction[kSlew]) +
                 actuation.brake_effort[kSlew];
   for (const auto& term : load_terms_) term->add_force(p, seen, sum);
-  for (const auto& [term, first] : structure_terms_) term->add_inner_force(p, seen, &inner[first], sum);
+  for (const auto& [term, first] : structure_terms_)
+    term->add_inner_motion(p, seen, &inner[first], sum, &equations[first]);
   return sum;
 }
 
@@ -157,20 +158,20 @@ Accelerations Model::accelerations(const State& state, const Actuation& actuatio
       braking ? actuation.brake_effort[kHoist]
               : (p.hoist_gain_mpspv * (actuation.drive_v[kHoist] - friction[kHoist]) - state.cable_mps) /
                     p.hoist_lag_s;
-  Accelerations result =
-      plant::accelerations(p, seen, forces(seen, actuation, friction, inner), hoisting, actuation.locks);
-  if (structure_terms_.empty()) return result;
-  const InnerAccelerations given = inner_accelerations;
+  const motion::Angles<double> angles = swing_angles(p, seen);
+  InnerEquations equations{};
+  Accelerations result = plant::accelerations(
+      p, seen, angles, forces(seen, actuation, friction, inner, equations), hoisting, actuation.locks);
   const auto accelerate = [&] {
-    for (const auto& [term, first] : structure_terms_)
-      term->accelerate(p, seen, result, &inner[first], &inner_accelerations[first]);
     for (std::size_t i = 0; i < inner_coordinates_; ++i)
-      if (actuation.prescribed[i]) inner_accelerations[i] = given[i];
+      if (!actuation.prescribed[i]) inner_accelerations[i] = equations[i].acceleration(result);
   };
   accelerate();
   Displacement pushed;
   for (const auto& [term, first] : structure_terms_) term->displace(&inner_accelerations[first], pushed);
-  const SwingResponse swing = swing_response(p, seen, pushed.trolley_m, pushed.slew_rad, actuation.locks);
+  if (pushed.trolley_m == 0 && pushed.slew_rad == 0) return result;
+  const SwingResponse swing =
+      swing_response(p, seen, angles, pushed.trolley_m, pushed.slew_rad, actuation.locks);
   result.radial_radps2 += swing.radial_radps2;
   result.tangential_radps2 += swing.tangential_radps2;
   if (structure_terms_.size() > 1) accelerate();  // other terms depend on the changed swing acceleration

@@ -40,7 +40,7 @@ void ForceBalance::evaluate(const Measurement& now) noexcept {
   plant::Accelerations q;
   q.trolley_mps2 = second(kTrolley);
   q.slew_radps2 = second(kSlew);
-  const double tension_npkg = plant::cable_tension_n(unit_load_, s, q);
+  const double tension_npkg = plant::cable_tension(unit_load_, s).tension_n(q);
   const double ex = -std::cos(s.tangential_rad) * std::sin(s.radial_rad), ey = std::sin(s.tangential_rad);
   const auto& p = unit_load_;
   const double x = s.trolley_m, moving = p.trolley_mass_kg;

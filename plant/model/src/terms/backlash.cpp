@@ -47,20 +47,19 @@ class Backlash final : public Term {
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (gap_ > 0) (slew_ ? sum.slew_rad : sum.trolley_m) += inner[0];
   }
-  void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
-                       Forces& sum) const noexcept override {
-    far_.add_motor_reaction(crane, state, contact(inner[0]), sum);
-  }
-  void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
-                  const Inner* inner, double* acceleration) const noexcept override {
+  void add_inner_motion(const Parameters& crane, const State& state, const Inner* inner, Forces& sum,
+                        InnerEquation* equations) const noexcept override {
     if (gap_ == 0) return;
+    const double flanks = contact(inner[0]), load_force = far_.load_force(crane, state);
+    far_.add_motor_reaction(crane, flanks, load_force, sum);
     const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the load side
-    const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
     const double guide = guide_deceleration_ * smooth_sign(speed, kGuideSmoothing);
-    acceleration[0] = far_.acceleration(crane, state, contact(inner[0]) - guide) - motor;
+    InnerEquation& far = equations[0];
+    far.free = far_.acceleration(crane, state, flanks - guide, load_force);
+    (slew_ ? far.by_slew : far.by_trolley) = -1;
     // Centrifugal acceleration of the trolley. The force acts on the motor only while a flank touches.
     const double c = crane.tilt_cosine;
-    if (!slew_) acceleration[0] += c * c * state.trolley_m * state.slew_radps * state.slew_radps;
+    if (!slew_) far.free += c * c * state.trolley_m * state.slew_radps * state.slew_radps;
   }
   /// An unexplained change of the motor's speed is an impact of the flanks. The load side has lost the
   /// momentum that the motor has gained, and is at the flank that transmitted it. When the model predicted an

@@ -22,16 +22,17 @@ class CableElasticity final : public Term {
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (compliance_mpn_ > 0) sum.cable_m += inner[0];
   }
-  void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
-                  const Inner* inner, double* acceleration) const noexcept override {
+  void add_inner_motion(const Parameters& crane, const State& state, const Inner* inner, Forces& /*sum*/,
+                        InnerEquation* equations) const noexcept override {
     const double inertia = compliance_mpn_ * crane.load_mass_kg;  // c m = 1 / omega^2
-    if (compliance_mpn_ == 0) return;
-    if (inertia * kRigid_radps2 < 1) {
-      acceleration[0] = 0;
-      return;
-    }
-    acceleration[0] = cable_tension_n(crane, state, drives) / crane.load_mass_kg - crane.gravity_mps2 -
-                      inner[0].position / inertia - 2 * damping_ratio_ / std::sqrt(inertia) * inner[0].rate;
+    if (inertia * kRigid_radps2 < 1) return;
+    const CableTension tension = cable_tension(crane, state);
+    const double m = crane.load_mass_kg;
+    equations[0] = {.free = tension.free_n / m - crane.gravity_mps2 - inner[0].position / inertia -
+                            2 * damping_ratio_ / std::sqrt(inertia) * inner[0].rate,
+                    .by_trolley = tension.by_trolley_kg / m,
+                    .by_slew = tension.by_slew_kgm / m,
+                    .by_cable = tension.by_cable_kg / m};
   }
 
  private:

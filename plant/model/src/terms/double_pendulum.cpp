@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include "crane/plant/term.hpp"
 #include "terms/load_force.hpp"
+#include "tilted_jib.hpp"
 
 namespace crane::plant {
 namespace {
@@ -9,14 +8,13 @@ namespace {
 /// Direction of a cable and its derivatives, in the slewing frame: e(phi, theta) of (2.11), phi from the
 /// vertical.
 struct Direction {
-  Direction(double phi, double theta, double phi_rate, double theta_rate, double turn) {
-    const double sf = std::sin(phi), cf = std::cos(phi), st = std::sin(theta), ct = std::cos(theta);
-    unit = {-ct * sf, st, -ct * cf};
-    by_phi = {-ct * cf, 0, ct * sf};
-    by_theta = {st * sf, ct, st * cf};
+  Direction(const motion::Angles<double>& a, double phi_rate, double theta_rate, double turn) {
+    unit = {-a.ct * a.sf, a.st, -a.ct * a.cf};
+    by_phi = {-a.ct * a.cf, 0, a.ct * a.sf};
+    by_theta = {a.st * a.sf, a.ct, a.st * a.cf};
     rate = phi_rate * by_phi + theta_rate * by_theta;
     rate_over_ground = rate + turn * Eigen::Vector3d{-unit.y(), unit.x(), 0};
-    const Eigen::Vector3d by_phi_phi{ct * sf, 0, ct * cf}, by_phi_theta{st * cf, 0, -st * sf};
+    const Eigen::Vector3d by_phi_phi{a.ct * a.sf, 0, a.ct * a.cf}, by_phi_theta{a.st * a.cf, 0, -a.st * a.sf};
     bend = phi_rate * phi_rate * by_phi_phi + 2 * phi_rate * theta_rate * by_phi_theta -
            theta_rate * theta_rate * unit;
   }
@@ -48,42 +46,40 @@ class DoublePendulum final : public Term {
   }
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return lower_share_ > 0 ? 2 : 0; }
 
-  void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
-                       Forces& sum) const noexcept override {
+  /// The lower cable pulls at the hook. Newton's law of both masses, subtracted: l e_2'' = T_1 / m_1 e_1 -
+  /// (...) e_2, projected on the derivatives of e_2, which are orthogonal to e_2 and to each other.
+  void add_inner_motion(const Parameters& crane, const State& s, const Inner* inner, Forces& sum,
+                        InnerEquation* equations) const noexcept override {
     if (lower_share_ == 0) return;
-    const Direction upper = upper_cable(crane, state), lower = lower_cable(crane, state, inner);
-    const double force_n = crane.load_mass_kg * tensions(crane, state, upper, lower).lower;
-    add_load_force(crane, state, force_n * lower.unit, sum);
-  }
+    const double turn = s.slew_radps;
+    const auto upper_angles = level_angles(crane, s.radial_rad, s.tangential_rad);
+    const Direction upper{upper_angles, s.radial_radps, s.tangential_radps, turn};
+    const Direction lower{
+        level_angles(crane, s.radial_rad + inner[0].position, s.tangential_rad + inner[1].position),
+        s.radial_radps + inner[0].rate, s.tangential_radps + inner[1].rate, turn};
+    const Tensions pull = tensions(crane, s, upper, lower);
+    add_generalised(
+        load_jacobian(crane, s, upper_angles).transpose() * (crane.load_mass_kg * pull.lower * lower.unit),
+        sum);
 
-  /// Newton's law of both masses, subtracted: l e_2'' = T_1 / m_1 e_1 - (...) e_2, projected on the
-  /// derivatives of e_2, which are orthogonal to e_2 and to each other.
-  void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
-                  const Inner* inner, double* acceleration) const noexcept override {
-    if (lower_share_ == 0) return;
-    const Direction upper = upper_cable(crane, state), lower = lower_cable(crane, state, inner);
-    const double turn = state.slew_radps, turning = drives.slew_radps2;
     const Eigen::Vector3d& e = lower.unit;
-    const Eigen::Vector3d rotation = 2 * turn * Eigen::Vector3d{-lower.rate.y(), lower.rate.x(), 0} +
-                                     turning * Eigen::Vector3d{-e.y(), e.x(), 0} -
+    const Eigen::Vector3d rotation = 2 * turn * Eigen::Vector3d{-lower.rate.y(), lower.rate.x(), 0} -
                                      turn * turn * Eigen::Vector3d{e.x(), e.y(), 0};
-    const Eigen::Vector3d bending =
-        tensions(crane, state, upper, lower).upper / lower_length_m_ * upper.unit - rotation - lower.bend;
-    acceleration[0] = lower.by_phi.dot(bending) / lower.by_phi.squaredNorm() - drives.radial_radps2;
-    acceleration[1] = lower.by_theta.dot(bending) - drives.tangential_radps2;
+    const Eigen::Vector3d turning{-e.y(), e.x(), 0};  // times slew''
+    const Eigen::Vector3d bending = pull.upper / lower_length_m_ * upper.unit - rotation - lower.bend;
+    const double phi_squares = lower.by_phi.squaredNorm();
+    equations[0] = {.free = lower.by_phi.dot(bending) / phi_squares,
+                    .by_radial = -1,
+                    .by_slew = -lower.by_phi.dot(turning) / phi_squares};
+    equations[1] = {
+        .free = lower.by_theta.dot(bending), .by_slew = -lower.by_theta.dot(turning), .by_tangential = -1};
   }
 
  private:
-  [[nodiscard]] static double tilt_rad(const Parameters& crane) {
-    return std::atan2(crane.tilt_sine, crane.tilt_cosine);
-  }
-  [[nodiscard]] static Direction upper_cable(const Parameters& crane, const State& s) {
-    return {s.radial_rad - tilt_rad(crane), s.tangential_rad, s.radial_radps, s.tangential_radps,
-            s.slew_radps};
-  }
-  [[nodiscard]] static Direction lower_cable(const Parameters& crane, const State& s, const Inner* inner) {
-    return {s.radial_rad - tilt_rad(crane) + inner[0].position, s.tangential_rad + inner[1].position,
-            s.radial_radps + inner[0].rate, s.tangential_radps + inner[1].rate, s.slew_radps};
+  /// Sines and cosines of the angles in the slewing frame.
+  [[nodiscard]] static motion::Angles<double> level_angles(const Parameters& crane, double radial_rad,
+                                                           double tangential_rad) {
+    return tilted::level(crane, motion::Angles<double>{radial_rad, tangential_rad});
   }
   /// Newton's law of both masses along the cables, whose lengths do not change:
   ///   T_1 / m_1 - c T_2 / m_1 = g cos_1 + L |e_1'|^2,   T_2 / m_1 = mu (c T_1 / m_1 + l |e_2'|^2)

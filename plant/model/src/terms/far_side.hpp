@@ -1,9 +1,8 @@
 #pragma once
 /// The part of an axis on the load side of a gap or a spring ("far side"), and the forces of this part on the
 /// motor side.
-#include <cmath>
-
 #include "crane/plant/equations.hpp"
+#include "crane/plant/motion_terms.hpp"
 #include "crane/plant/parameters.hpp"
 
 namespace crane::plant {
@@ -41,29 +40,28 @@ class FarSide {
     return own / (own + crane.trolley_mass_kg * radius_m(crane, seen) * radius_m(crane, seen));
   }
   /// Force P of the load on the far side, with the cable tension of a load at rest, N or N m. On a trolley, P
-  /// includes the weight of the trolley along a tilted jib.
+  /// includes the weight of the trolley along a tilted jib. 0 for a far side without inertia.
   [[nodiscard]] double load_force(const Parameters& crane, const State& seen) const {
-    const double ct = std::cos(seen.tangential_rad), cf = std::cos(seen.radial_rad),
-                 sf = std::sin(seen.radial_rad);
+    if (!carries()) return 0;
+    const motion::Angles<double> a{seen.radial_rad, seen.tangential_rad};
     const double tension_n =
-        crane.load_mass_kg * crane.gravity_mps2 * ct * (cf * crane.tilt_cosine + sf * crane.tilt_sine);
-    return slew_ ? tension_n * std::sin(seen.tangential_rad) * radius_m(crane, seen)
-                 : -tension_n * ct * sf - crane.trolley_mass_kg * crane.gravity_mps2 * crane.tilt_sine;
+        crane.load_mass_kg * crane.gravity_mps2 * a.ct * (a.cf * crane.tilt_cosine + a.sf * crane.tilt_sine);
+    return slew_ ? tension_n * a.st * radius_m(crane, seen)
+                 : -tension_n * a.ct * a.sf - crane.trolley_mass_kg * crane.gravity_mps2 * crane.tilt_sine;
   }
   /// Adds the force on the motor when the connection accelerates the inertia j J by `connection`, m/s2 or
-  /// rad/s2.
-  void add_motor_reaction(const Parameters& crane, const State& seen, double connection, Forces& sum) const {
-    if (carries())
-      (slew_ ? sum.slew_nm : sum.trolley_n) -= own_inertia(crane) * connection + load_force(crane, seen);
+  /// rad/s2. @param load_force  P
+  void add_motor_reaction(const Parameters& crane, double connection, double load_force, Forces& sum) const {
+    if (carries()) (slew_ ? sum.slew_nm : sum.trolley_n) -= own_inertia(crane) * connection + load_force;
   }
-  /// Acceleration of the far side relative to the ground, m/s2 or rad/s2.
-  [[nodiscard]] double acceleration(const Parameters& crane, const State& seen, double connection) const {
+  /// Acceleration of the far side relative to the ground, m/s2 or rad/s2. @param load_force  P
+  [[nodiscard]] double acceleration(const Parameters& crane, const State& seen, double connection,
+                                    double load_force) const {
     if (!carries()) return connection;
     const double coriolis_nm = slew_ ? 2 * crane.trolley_mass_kg * radius_m(crane, seen) * crane.tilt_cosine *
                                            seen.trolley_mps * seen.slew_radps
                                      : 0;
-    return own_share(crane, seen) *
-           (connection + (load_force(crane, seen) - coriolis_nm) / own_inertia(crane));
+    return own_share(crane, seen) * (connection + (load_force - coriolis_nm) / own_inertia(crane));
   }
   /// Decrease of the far side's speed when the connection increases the motor's speed by `change`.
   [[nodiscard]] double speed_loss(const Parameters& crane, const State& seen, double change) const {

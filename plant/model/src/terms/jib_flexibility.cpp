@@ -20,14 +20,12 @@ class JibFlexibility final : public Term {
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (!rigid_) sum.slew_rad += inner[0];
   }
-  void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
-                       Forces& sum) const noexcept override {
-    if (!rigid_) far_.add_motor_reaction(crane, state, spring_radps2(inner[0]), sum);
-  }
-  void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
-                  const Inner* inner, double* acceleration) const noexcept override {
+  void add_inner_motion(const Parameters& crane, const State& state, const Inner* inner, Forces& sum,
+                        InnerEquation* equations) const noexcept override {
     if (rigid_) return;
-    acceleration[0] = far_.acceleration(crane, state, spring_radps2(inner[0])) - drives.slew_radps2;
+    const double spring = spring_radps2(inner[0]), load_nm = far_.load_force(crane, state);
+    far_.add_motor_reaction(crane, spring, load_nm, sum);
+    equations[0] = {.free = far_.acceleration(crane, state, spring, load_nm), .by_slew = -1};
   }
 
  private:

@@ -4,13 +4,17 @@
 
 namespace crane::plant {
 
-inline void add_load_force(const Parameters& crane, const State& state, const Eigen::Vector3d& force_n,
-                           Forces& sum) {
-  const Eigen::Vector4d q = load_jacobian(crane, state).transpose() * force_n;
+/// Adds the generalised forces of (x, phi, gamma, theta).
+inline void add_generalised(const Eigen::Vector4d& q, Forces& sum) {
   sum.trolley_n += q[0];
   sum.radial_nm += q[1];
   sum.slew_nm += q[2];
   sum.tangential_nm += q[3];
+}
+
+inline void add_load_force(const Parameters& crane, const State& state, const Eigen::Vector3d& force_n,
+                           Forces& sum) {
+  add_generalised(load_jacobian(crane, state).transpose() * force_n, sum);
 }
 
 }  // namespace crane::plant

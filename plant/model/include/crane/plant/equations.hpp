@@ -6,6 +6,7 @@
 /// crane with slew and tangential swing locked. A single drive axis has no load mass. A free pendulum has all
 /// drives locked. Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, chapter 2,
 /// with the misprints corrected (docs/equations.md).
+#include "crane/plant/motion_terms.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/plant/state.hpp"
 
@@ -38,6 +39,10 @@ struct Locks {
   bool tangential = false;  ///< true: theta is held
 };
 
+/// Sines and cosines of the swing angles. Without a load, the swing has no influence on the drives; the
+/// angles are then 0.
+[[nodiscard]] motion::Angles<double> swing_angles(const Parameters& parameters, const State& state) noexcept;
+
 /// @return q'' of the free coordinates, and the acceleration in `locks` for the locked ones. Without load
 ///   mass the swing is locked too, because the pendulum equations vanish
 /// @param cable_mps2  L'', prescribed; a locked hoist uses its acceleration in `locks` instead
@@ -45,16 +50,20 @@ struct Locks {
 [[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
                                           const Forces& forces, double cable_mps2,
                                           const Locks& locks = {}) noexcept;
+/// @param angles  swing_angles(parameters, state), where the caller uses them more than once
+[[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
+                                          const motion::Angles<double>& angles, const Forces& forces,
+                                          double cable_mps2, const Locks& locks) noexcept;
 
 /// Additional swing accelerations when the suspension point has the additional accelerations `trolley_mps2`
-/// (along the jib) and `slew_radps2`.
+/// (along the jib) and `slew_radps2`. @param angles  swing_angles(parameters, state)
 struct SwingResponse {
   double radial_radps2 = 0;
   double tangential_radps2 = 0;
 };
 [[nodiscard]] SwingResponse swing_response(const Parameters& parameters, const State& state,
-                                           double trolley_mps2, double slew_radps2,
-                                           const Locks& locks = {}) noexcept;
+                                           const motion::Angles<double>& angles, double trolley_mps2,
+                                           double slew_radps2, const Locks& locks) noexcept;
 
 /// Accelerations of the unlocked drives per unit of force on the trolley (N) and of torque on the slew axis
 /// (N m).
@@ -66,9 +75,17 @@ struct DriveResponse {
 [[nodiscard]] DriveResponse drive_response(const Parameters& parameters, const State& state,
                                            const Locks& locks = {}) noexcept;
 
-/// Tension of the cable [N], positive for a taut cable: -Q_L of Lagrange's equation for L.
-[[nodiscard]] double cable_tension_n(const Parameters& parameters, const State& state,
-                                     const Accelerations& accelerations) noexcept;
+/// Tension of the cable [N], positive for a taut cable: -Q_L of Lagrange's equation for L. It is linear in
+/// the accelerations of trolley, jib and cable.
+struct CableTension {
+  double free_n = 0;  ///< without accelerations
+  double by_trolley_kg = 0, by_slew_kgm = 0, by_cable_kg = 0;
+
+  [[nodiscard]] double tension_n(const Accelerations& a) const noexcept {
+    return free_n + by_trolley_kg * a.trolley_mps2 + by_slew_kgm * a.slew_radps2 + by_cable_kg * a.cable_mps2;
+  }
+};
+[[nodiscard]] CableTension cable_tension(const Parameters& parameters, const State& state) noexcept;
 
 /// State after an end stop has stopped `axis` in an inelastic impact. The impulse changes the rates of the
 /// other free coordinates f: M_ff dq'_f = -M_fs dq'_s with s the stopped coordinate.

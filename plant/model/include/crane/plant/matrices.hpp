@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "crane/plant/equations.hpp"
+#include "crane/plant/motion_terms.hpp"
 
 namespace crane::plant {
 
@@ -14,6 +15,9 @@ namespace crane::plant {
 /// has the generalised forces J^T F.
 [[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& parameters,
                                                         const State& state) noexcept;
+/// @param level  sines and cosines of the cable's angles in the slewing frame, where the caller has them
+[[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& parameters, const State& state,
+                                                        const motion::Angles<double>& level) noexcept;
 
 /// Velocity of the load relative to the ground, including the cable speed, in the slewing frame [m/s],
 /// (2.12).

@@ -14,10 +14,11 @@
 
 namespace crane::plant {
 
-/// Inner coordinates of all structure terms of a model, and their accelerations; the first
+/// Inner coordinates of all structure terms of a model, their accelerations and their equations; the first
 /// Model::inner_coordinates() elements are used.
 using InnerState = std::array<Inner, kMostInner>;
 using InnerAccelerations = std::array<double, kMostInner>;
+using InnerEquations = std::array<InnerEquation, kMostInner>;
 
 /// Inputs of the model; constant between two events of the rig.
 struct Actuation {
@@ -94,7 +95,7 @@ class Model {
   void add_structure(std::unique_ptr<Term> term);
   [[nodiscard]] State displaced(const State& state, const InnerState& inner) const noexcept;
   [[nodiscard]] Forces forces(const State& seen, const Actuation& actuation, const PerAxis& friction_v,
-                              const InnerState& inner) const noexcept;
+                              const InnerState& inner, InnerEquations& equations) const noexcept;
 
   Parameters parameters_;
   double period_s_;

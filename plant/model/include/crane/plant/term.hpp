@@ -19,6 +19,17 @@ struct Inner {
   double position = 0;  ///< m or rad
   double rate = 0;      ///< m/s or rad/s
 };
+/// Equation of motion of an inner coordinate q: q'' = free + by_trolley x'' + ... + by_cable L'', linear in
+/// the accelerations of drives and swing. Units: those of q'' and of q'' per acceleration.
+struct InnerEquation {
+  double free = 0;
+  double by_trolley = 0, by_radial = 0, by_slew = 0, by_tangential = 0, by_cable = 0;
+
+  [[nodiscard]] double acceleration(const Accelerations& a) const noexcept {
+    return free + by_trolley * a.trolley_mps2 + by_radial * a.radial_radps2 + by_slew * a.slew_radps2 +
+           by_tangential * a.tangential_radps2 + by_cable * a.cable_mps2;
+  }
+};
 /// Maximum number of inner coordinates of a model.
 inline constexpr std::size_t kMostInner = 8;
 
@@ -67,7 +78,7 @@ class Term {
                          Forces& /*sum*/) const noexcept {}
 
   /// Structure terms: number of inner coordinates; 0 when the parameters make the structure rigid. The
-  /// arguments `inner` and `acceleration` below point to the inner coordinates of this term.
+  /// arguments `inner` and `equations` below point to the inner coordinates of this term.
   [[nodiscard]] virtual std::size_t inner_coordinates() const noexcept { return 0; }
   /// True when the inner coordinates oscillate freely, so that the inputs do not determine their state.
   [[nodiscard]] virtual bool rings() const noexcept { return inner_coordinates() > 0; }
@@ -78,14 +89,10 @@ class Term {
   /// Adds the displacement. It is linear in `inner`, so that the same function serves positions, rates and
   /// accelerations.
   virtual void displace(const double* /*inner*/, Displacement& /*sum*/) const noexcept {}
-  /// Adds generalised forces that depend on the inner coordinates.
-  virtual void add_inner_force(const Parameters& /*crane*/, const State& /*state*/, const Inner* /*inner*/,
-                               Forces& /*sum*/) const noexcept {}
-  /// Computes the accelerations of the inner coordinates from those of the drives and the swing. The model
-  /// calls this function again when the displacement of a term has changed the acceleration of the swing.
-  virtual void accelerate(const Parameters& /*crane*/, const State& /*state*/,
-                          const Accelerations& /*drives*/, const Inner* /*inner*/,
-                          double* /*acceleration*/) const noexcept {}
+  /// Adds generalised forces that depend on the inner coordinates, and computes the equations of motion of
+  /// the inner coordinates. @param equations  all coefficients are 0
+  virtual void add_inner_motion(const Parameters& /*crane*/, const State& /*state*/, const Inner* /*inner*/,
+                                Forces& /*sum*/, InnerEquation* /*equations*/) const noexcept {}
 
   /// Corrects the inner coordinates between two samples of a measured motion.
   /// @param unexplained  measured minus modelled change of each motor's speed between the samples [m/s,
