@@ -52,8 +52,8 @@ endfunction()
 
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE] | LOOP])
 # GoogleTest program; each TEST becomes one CTest test. SERIAL: the tests of this program run one after the other (real time, real
-# DDS), beside a test of at most one other program, which has DDS domains of its own. ALONE: no other test runs at the same time,
-# because these tests require that the loop loses no tick or that a handshake of DDS Security ends in time. SERIAL tests have the
+# DDS), beside tests of other programs, each of which has DDS domains of its own. The program with the longest TIMEOUT begins first,
+# because its tests form the longest chain. ALONE: no other test runs at the same time, because these tests require that the loop loses no tick or that a handshake of DDS Security ends in time. SERIAL tests have the
 # main() of tests/real_time, where a failure is final unless a bare timer proves that the computer paused. All other programs
 # carry the label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a
 # crane moves; they carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
@@ -61,6 +61,9 @@ add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
   cmake_parse_arguments(ARG "SERIAL;ALONE;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   set(main GTest::gtest_main)
   if(ARG_SERIAL)
@@ -72,7 +75,7 @@ function(crane_test name)
   # ccache requires -fpch-preprocess. GCC 12 reports false overflows for a precompiled <string>.
   target_compile_options(${name} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow>)
   if(ARG_SERIAL)
-    set(properties RESOURCE_LOCK ${name})
+    set(properties RESOURCE_LOCK ${name} COST ${ARG_TIMEOUT})
     if(ARG_ALONE)
       set(properties RUN_SERIAL TRUE)
     endif()
@@ -89,9 +92,6 @@ function(crane_test name)
   endif()
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
-  endif()
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 60)
   endif()
   if(ARG_SERIAL)
     math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")  # tests/real_time runs a test up to three times

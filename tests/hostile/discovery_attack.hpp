@@ -23,7 +23,7 @@ using system_test::RunningStack;
 inline constexpr const char* kDiscoveryRig = "virginia_tech_tower";
 class DiscoveryAttack : public testing::Test {
  protected:
-  static constexpr std::uint32_t kDomain = 89;
+  static constexpr std::uint32_t kDomain = CRANE_ATTACKED_DOMAIN;
   static constexpr double kStill_m = 0.01;  ///< motion of an axis in HOLD by swing and control
 
   void SetUp() override {

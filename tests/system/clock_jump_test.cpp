@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kDomain = 92;
+constexpr std::uint32_t kDomain = 55;
 
 /// Wall clock of the processes that start while this object exists (jumping_clock.cpp).
 class WallClock {

@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-constexpr std::uint32_t kDomain = 94;
+constexpr std::uint32_t kDomain = 56;
 constexpr int kAway = -32768;
 constexpr std::array kTrolley{true, false, false};
 

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-constexpr std::uint32_t kDomain = 93;
+constexpr std::uint32_t kDomain = 57;
 constexpr const char* kRig = "virginia_tech_tower";
 constexpr const char* kOtherRig = "virginia_tech_tower_silo";  // the same crane with no-go zones
 
