@@ -25,7 +25,7 @@ class ChildProcesses {
   ChildProcesses& operator=(const ChildProcesses&) = delete;
 
   /// Starts `program` from the directory of the running executable. @throws std::runtime_error
-  /// @param inherited  a further descriptor that the child inherits; -1: none
+  /// @param inherited  the only descriptor that the child inherits besides the standard ones; -1: none
   void start(const std::string& name, const std::string& program, const std::vector<std::string>& arguments,
              int inherited = -1);
   /// The first child that has ended; nothing while all children run.
