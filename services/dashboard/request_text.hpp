@@ -13,8 +13,8 @@ class BadRequest : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// {"kind": "reset" (with "confirm_positions"), "arm", "disarm", "stop", "estop", "home" (with "axis") or
-/// "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
+/// {"kind": "reset" (with "confirm_positions"), "arm", "disarm", "stop", "estop", "home" (with "axis"),
+/// "mode" (with "mode") or "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
 [[nodiscard]] stack::OperatorRequest operator_request_of(std::string_view body);
 
 /// True for stop and emergency stop, which need no seat.

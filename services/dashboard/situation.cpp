@@ -72,11 +72,12 @@ void Situation::add(const observation::Sample& sample) {
 
 ordered_json Situation::json(std::int64_t now_ns) const {
   if (!supervisor_ || now_ns - supervisor_ns_ > kSilent_ns)
-    return {{"heard", false},
-            {"state", nullptr},
-            {"remedy",
-             "no supervisor is heard: start a stack with `crane up`, or check --crane, --domain, "
-             "--interface and --secure of the dashboard"}};
+    return {
+        {"heard", false},
+        {"state", nullptr},
+        {"remedy",
+         "no sample of the supervisor arrives: start a stack with `crane up`, or check --crane, --domain, "
+         "--interface and --secure of the dashboard"}};
   const bool state_fresh = state_ && now_ns - state_ns_ <= kSilent_ns;
   const auto* state = state_fresh ? &*state_ : nullptr;
   const auto cause = static_cast<supervisor::Cause>(supervisor_->cause);

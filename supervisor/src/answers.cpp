@@ -48,8 +48,8 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   if (in.relay_closed) return refuse("the watchdog relay has not opened yet: wait, then reset");
   if (in.swing_zero_doubtful && enabled(reset_swing_zero_doubtful))
     return refuse(
-        "the load swung when the bridge started, so that the zero of its encoders is wrong: let it hang at "
-        "rest, then restart the bridge");
+        "the load swung when the bridge started: the zero of the swing encoders may be wrong; let the load "
+        "hang at rest, then restart the bridge");
   if (in.position_doubtful && enabled(reset_position_doubtful)) return refuse(kUnclear[in.doubtful_axis]);
   if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
   if (in.now_s - m.clear_since_s < limits.clear_time_s && enabled(reset_clear_time)) {

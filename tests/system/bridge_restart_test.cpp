@@ -105,7 +105,7 @@ TEST_F(BridgeRestart, BelowASwingingLoadIsRefused) {
   exchange_bridge();
   ASSERT_TRUE(
       running_.until([this] { return std::abs(observer().states().back().swing_radial_rad) > 0.02; }, 2s));
-  EXPECT_THAT(refusal(true), HasSubstr("let it hang at rest"));
+  EXPECT_THAT(refusal(true), HasSubstr("let the load hang at rest"));
   EXPECT_TRUE(locked_by_restart());
 }
 

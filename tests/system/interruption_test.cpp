@@ -117,7 +117,7 @@ class Restarts : public testing::TestWithParam<const char*> {
   RunningStack running_{kDomain, "virginia_tech_tower", stack::Plant::simulated, "", GetParam()};
 };
 
-TEST_P(Restarts, OneAfterTheOtherLeaveNoDisputeAboutATopic) {
+TEST_P(Restarts, InSequenceLeaveNoDisputeAboutATopic) {
   constexpr std::array kRestarted{"trajectory_planner", "tracking", "anti_swing", "friction_compensation"};
   constexpr auto kMost = 4s;  // dispute of the killed writer 1 s, causes inactive 1 s, fresh samples 1 s
   const char* rounds = std::getenv("CRANE_RESTARTS");

@@ -35,7 +35,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-TEST(MujocoData, IsTheSameForTheSameSeedAndOtherForAnother) {
+TEST(MujocoData, IsEqualForEqualSeedsAndDiffersForOtherSeeds) {
   const auto a = recorded(gantry(), {}, short_plan()), b = recorded(gantry(), {}, short_plan());
   RunPlan other = short_plan();
   other.seed = 2;

@@ -62,7 +62,8 @@ int explain(const ExplainOptions& options) {
   } else if (options.live) {
     auto bus = open_bus(options.bus);
     const auto snapshot = listen(bus, options.timeout_s);
-    if (!snapshot.supervisor) throw std::runtime_error("no supervisor heard" + where_and_remedy(bus));
+    if (!snapshot.supervisor)
+      throw std::runtime_error("no sample of the supervisor received" + where_and_remedy(bus));
     explain_present(snapshot);
   } else {
     std::cout << supervisor::rule_table();
@@ -78,7 +79,7 @@ void add_supervisor(CLI::App& app, Action& chosen) {
   group->require_subcommand(1);
   auto* command = group->add_subcommand(
       "explain",
-      "Print the rule table; with --live or --state the requests that the state refuses, with reasons");
+      "Print the rule table; with --live or --state: whether the state accepts reset, arm, move and home");
   auto options = std::make_shared<ExplainOptions>();
   command->add_option("--state", options->state, "explain the last state of this recording");
   command->add_flag("--live", options->live, "explain the state of the running crane");

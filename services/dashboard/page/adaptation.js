@@ -34,11 +34,11 @@ function axisOf(sample, idl, axis) {
   const times = (count, one, many) => count === 1 ? `1 ${one}` : `${count} ${many}`;
   return [element("section", { id: "adaptation-" + key, dataset: { phase } },
     element("h3", {}, label, element("meter", { min: 0, max: 1, value: get("confidence"), title: "0: nothing is known beyond the rig file; 1: both directions are fully excited" }),
-      element("span", { className: "hint" }, `${(100 * get("confidence")).toFixed(0)} % sure`)),
+      element("span", { className: "hint" }, `confidence ${(100 * get("confidence")).toFixed(0)} %`)),
     element("p", { className: "activity", dataset: { tone } }, text),
     element("table", {}, element("thead", {}, element("tr", {}, ...["", "Coulomb [V]", "Break-away [V]", "In use [V]"].map((head) => element("th", {}, head)))),
       element("tbody", {}, directionOf(sample, path + ".positive", "forward"), directionOf(sample, path + ".negative", "back"))),
-    element("p", { className: "hint" }, `${times(get("installed"), "set", "sets")} taken over, ${times(get("roll_backs"), "return", "returns")} to an earlier set`))];
+    element("p", { className: "hint" }, `${times(get("installed"), "set of levels", "sets of levels")} installed, ${times(get("roll_backs"), "roll-back", "roll-backs")}`))];
 }
 
 export class AdaptationPanel {

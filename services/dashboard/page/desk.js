@@ -95,7 +95,7 @@ export class Desk extends EventTarget {
   }
 
   answerTo(request) {
-    if (!this.situation?.heard) return { accepted: false, reason: "no supervisor is heard" };
+    if (!this.situation?.heard) return { accepted: false, reason: "no sample of the supervisor arrives" };
     return this.situation.answers.find((answer) => answer.request === request) ?? { accepted: false, reason: "" };
   }
 

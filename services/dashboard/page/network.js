@@ -1,4 +1,4 @@
-// The view Network: who runs, what flows, with rates, losses and delays; from what is heard.
+// The view Network: processes and topics, with rates, losses and delays computed from the received samples.
 import { element } from "./words.js";
 
 const find = (id) => document.getElementById(id);
@@ -45,7 +45,7 @@ export class NetworkView {
   }
 
   #drawTopics({ topics, delay_bounds_us: bounds }) {
-    const head = ["Topic", "Written by", "Rate", "Samples", "Lost", "Late", "Twice", "Delay median", "99 %", "longest", "Jitter 99 %", `Delays ${bounds[0]} µs … ${bounds.at(-1) / 1000} ms`];
+    const head = ["Topic", "Written by", "Rate", "Samples", "Lost", "Late", "Duplicate", "Delay median", "99 %", "longest", "Jitter 99 %", `Delays ${bounds[0]} µs … ${bounds.at(-1) / 1000} ms`];
     const rows = topics.map((t) => {
       const flows = t.rate_hz !== null, most = Math.max(1, ...t.delay_histogram);
       return row([

@@ -13,8 +13,8 @@ const find = (id) => document.getElementById(id);
 export class OperateView {
   #aim = null;
   #pose = null;
-  #stale = true; // nothing new to draw
-  #numbersStale = false;
+  #drawn = true; // false: there is something new to draw
+  #newNumbers = false;
   #trail = [];
   #shown = new Map(); // id -> text
 
@@ -36,13 +36,13 @@ export class OperateView {
     desk.addEventListener("ask", ({ detail }) => this.#ask(detail));
     link.listen("crane/state", (sample) => this.#takeState(sample));
     const loop = () => {
-      if (!this.#stale) this.#draw();
-      if (this.#numbersStale) this.#drawNumbers();
+      if (!this.#drawn) this.#draw();
+      if (this.#newNumbers) this.#drawNumbers();
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
-    document.addEventListener("themechange", () => { this.scene.repaint(); this.#stale = false; });
-    window.addEventListener("resize", () => { this.#stale = this.#pose === null; });
+    document.addEventListener("themechange", () => { this.scene.repaint(); this.#drawn = false; });
+    window.addEventListener("resize", () => { this.#drawn = this.#pose === null; });
   }
 
   #takeState(sample) {
@@ -54,8 +54,8 @@ export class OperateView {
     const kept = this.#trail.findIndex(({ time_s }) => time_s >= sample.time_s - TRAIL_S);
     if (kept > 0) this.#trail.splice(0, kept);
     else if (kept < 0) this.#trail.splice(0, this.#trail.length - 1); // at rest: the last place stays
-    if (moved || kept > 0) this.#stale = false;
-    this.#numbersStale = true;
+    if (moved || kept > 0) this.#drawn = false;
+    this.#newNumbers = true;
   }
 
   get #rig() { return this.desk.about.rig; }
@@ -68,7 +68,7 @@ export class OperateView {
   }
 
   #draw() {
-    this.#stale = true;
+    this.#drawn = true;
     if (!this.#pose || find("view-operate").hidden) return;
     const target = this.#target();
     this.scene.show(this.#pose, target, this.#rig);
@@ -83,7 +83,7 @@ export class OperateView {
   }
 
   #drawNumbers() {
-    this.#numbersStale = false;
+    this.#newNumbers = false;
     if (find("view-operate").hidden) return;
     const shown = this.#shown;
     const put = (id, value, unit) => {
@@ -132,7 +132,7 @@ export class OperateView {
     if ("slew_rad" in wanted) aim.slew = wanted.slew_rad;
     if ("hoist_m" in wanted) aim.cable = wanted.hoist_m;
     this.#aim = Object.keys(aim).length ? aim : null;
-    this.#stale = false;
+    this.#drawn = false;
     this.#drawDesk();
   }
   #aimAt({ x, slew }) {
@@ -192,7 +192,7 @@ export class OperateView {
     const cable = axes[2].present ? axes[2].high_limit : (this.#pose?.cable ?? 1);
     this.scene.configure({ reach: axes[0].high_limit, height: cable + 0.35, kind });
     find("map-title").textContent = kind === "tower" ? "Jib from above" : "Bridge from above";
-    this.#stale = this.#pose === null;
+    this.#drawn = this.#pose === null;
   }
 
   #drawSituation(situation) {
@@ -201,9 +201,9 @@ export class OperateView {
     find("situation").dataset.state = situation.state ?? "";
     find("state-name").textContent = name;
     find("state-meaning").textContent = situation.heard ? meaningOf(this.link.idl, "SupervisorState", "STATE_" + situation.state) : "";
-    const told = !situation.heard || situation.cause !== "NONE";
-    find("cause").hidden = !told;
-    if (!told) return;
+    const hasCause = !situation.heard || situation.cause !== "NONE";
+    find("cause").hidden = !hasCause;
+    if (!hasCause) return;
     find("cause-name").textContent = situation.latch ? plain("bridge: " + situation.latch.reason) : plain(situation.cause ?? "silence");
     find("cause-meaning").textContent = situation.latch ? situation.latch.explanation : situation.homing && situation.cause === "HOMING_FAILED" ? plain(situation.homing.failure) : meaningOf(this.link.idl, "Cause", "CAUSE_" + situation.cause);
     const remedy = situation.latch?.remedy || (situation.cause === "HOMING_FAILED" && situation.homing?.remedy) || situation.remedy;

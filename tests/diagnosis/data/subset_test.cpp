@@ -91,7 +91,7 @@ TEST(SubsetOfColumns, ASupportAtRestMayBeAConstantOfTheMapping) {
 
 TEST(SubsetOfColumns, AMotionWithoutCommandAndSwingIsRefused) {
   EXPECT_THAT(refused(without(measured_with(1, 1.5), {"trolley_voltage_v", "swing_radial_rad"})),
-              HasSubstr("a motion alone tells nothing"));
+              HasSubstr("a motion alone determines nothing"));
 }
 
 TEST(SubsetOfColumns, RunsWithDifferentColumnsAreRefused) {

@@ -111,9 +111,10 @@ int score(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{
-      "Scores the diagnosis on data with hidden effects that share no code with it, and prints the table "
-      "of targets.\nEvery set is appended to the file of results as one line of JSON; sets that are "
-      "there are not computed again,\nso that a long score may be interrupted, continued and lengthened."};
+      "Diagnose generated data with known, hidden effects, and print the table of targets. The generators\n"
+      "share no code with the diagnosis. Each set adds one JSON line to the file of --results; sets that "
+      "the\n"
+      "file already contains are omitted, so that a run can be interrupted, continued and extended."};
   app.add_option(
          "--deck", options.deck,
          "truth: cranes of tests/truth; mujoco: cranes of tests/truth_mujoco, with widely varied conditions")

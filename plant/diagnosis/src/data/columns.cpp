@@ -79,7 +79,7 @@ class Checks {
                           rule + "; without any command the load is compared alone");
       else if (!swings)
         findings_.problem(columns_.commands[axis].name, "missing",
-                          rule + ", or a swing that it excites: a motion alone tells nothing");
+                          rule + ", or a swing that it excites: a motion alone determines nothing");
       else
         alone = true;
     }
