@@ -35,7 +35,8 @@ constexpr milliseconds kLongestAnnouncement{8'500};
 
 Findings examine_network(const Options& options) {
   const auto own = own_interfaces();
-  auto findings = judge_interfaces(options.bus.interfaces, !options.bus.peers.empty(), own, try_multicast);
+  const bool unicast = !options.bus.peers.empty() || !options.bus.discovery_server.empty();
+  auto findings = judge_interfaces(options.bus.interfaces, unicast, own, try_multicast);
   const auto local = local_processes();
   add(findings, judge_processes(local, options.bus.crane, options.bus.domain));
   add(findings, judge_number_of_participants(local, options.bus.domain));

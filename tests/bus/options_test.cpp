@@ -33,6 +33,20 @@ TEST(Options, APeerWithoutAnAddressIsRefused) {
   EXPECT_THAT(refusal({.domain = 40, .peers = {"256.1.1.1"}}), HasSubstr("256.1.1.1"));
 }
 
+TEST(Options, ADiscoveryServerIsUsedByFastDdsOnlyAndInsteadOfPeers) {
+  EXPECT_THAT(refusal({.domain = 40, .peers = {"127.0.0.1"}, .discovery_server = "127.0.0.1"}),
+              AllOf(HasSubstr("Cyclone DDS cannot use the Discovery Server"), HasSubstr("--dds fastdds"),
+                    HasSubstr("either a server or peers")));
+  EXPECT_THAT(refusal({.vendor = Vendor::fastdds,
+                       .domain = 40,
+                       .discovery_server = "127.0.0.1",
+                       .credentials = Credentials{}}),
+              HasSubstr("discovery_server: the server has no keys"));
+  for (const char* wrong : {"256.1.1.1", "127.0.0.1:0", "127.0.0.1:65536", "127.0.0.1:one", ":11811"})
+    EXPECT_THAT(refusal({.vendor = Vendor::fastdds, .domain = 40, .discovery_server = wrong}),
+                HasSubstr("discovery_server: '" + std::string{wrong} + "' must be HOST or HOST:PORT"));
+}
+
 TEST(Options, AllProblemsAreReportedAtOnce) {
   EXPECT_THAT(
       refusal({.domain = 200, .crane = "", .interfaces = {}}),

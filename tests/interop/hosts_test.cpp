@@ -1,6 +1,6 @@
 // A monitor or a dashboard on another host: two network namespaces connected by a veth pair. The loop runs on
 // Cyclone DDS in one of them, the tools on Fast DDS in the other; discovery by multicast, and by unicast
-// peers only.
+// peers only. With a Discovery Server of Fast DDS, the loop runs on Fast DDS, too.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -13,7 +13,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -85,6 +87,7 @@ struct Discovery {
   std::string name;
   std::vector<std::string> stack_options, tool_options;
   bool secured = false;
+  bool by_server = false;
 };
 
 class FromAnotherHost : public testing::TestWithParam<Discovery> {
@@ -96,6 +99,7 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
       const auto made = hosts.on_far("keys make " + keys());
       ASSERT_EQ(made.exit_code, 0) << made.errors;
     }
+    if (GetParam().by_server) start_server();
   }
   [[nodiscard]] std::string keys() const { return (directory / "keys").string(); }
   /// Options of a command that only reads.
@@ -121,21 +125,35 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
     };
     Answer answer;
     for (int i = 0; i < 10 && !complete(answer); ++i)
-      answer = hosts.on_far(command + " --dds fastdds " + tool_options());
+      answer = hosts.on_far(command + (GetParam().by_server ? "" : " --dds fastdds") + tool_options());
     return answer;
   }
   TwoHosts hosts;
   recording::TemporaryDirectory directory;
+
+ private:
+  /// As docs/other_hosts.md describes: a copy of the profile with the address of the host.
+  void start_server() {
+    constexpr std::string_view kAddress = "192.0.2.7";
+    auto profile = recording::contents_of(CRANE_SERVER_PROFILE);
+    for (auto at = profile.find(kAddress); at != std::string::npos; at = profile.find(kAddress))
+      profile.replace(at, kAddress.size(), TwoHosts::kNear);
+    const auto file = directory / "server.xml";
+    std::ofstream{file} << profile;
+    server_.emplace(hosts.near(), "fast-discovery-server", std::vector<std::string>{"-x", file.string()});
+  }
+  std::optional<hosts::RunningProgram> server_;
 };
 
 TEST_P(FromAnotherHost, StatusAndTopicsAreSeen) {
   const Running stack{hosts.near(), up()};
-  const auto status = patiently("status --json", {"supervisor", "friction_compensation", "cyclone"});
+  const std::string vendor = GetParam().by_server ? "fastdds" : "cyclone";
+  const auto status = patiently("status --json", {"supervisor", "friction_compensation", vendor});
   ASSERT_EQ(status.exit_code, 0) << status.errors;
   const auto json = nlohmann::json::parse(status.output);
   EXPECT_THAT(json.dump(),
               testing::AllOf(testing::HasSubstr("supervisor"), testing::HasSubstr("friction_compensation"),
-                             testing::HasSubstr("cyclone")));
+                             testing::HasSubstr(vendor)));
   EXPECT_EQ(json.at("insecure"), !GetParam().secured);
   const auto echo = patiently("topic echo crane/state --count 3 --json");
   ASSERT_EQ(echo.exit_code, 0) << echo.errors;
@@ -194,6 +212,20 @@ TEST(AnotherHost, WithoutCarrierIsNamedAndRefused) {
   }
 }
 
+using ByServer = FromAnotherHost;
+
+TEST_P(ByServer, WithoutMulticastTheServerIsNeeded) {
+  for (const auto& host : {hosts.near(), hosts.far()}) {
+    const auto device = host == hosts.near() ? hosts.near_device() : hosts.far_device();
+    ASSERT_EQ(hosts::run("ip -n " + host + " link set " + device + " multicast off").exit_code, 0);
+  }
+  const Running stack{hosts.near(), up()};
+  const auto status = patiently("status --json", {"LOCKED"});
+  EXPECT_EQ(status.exit_code, 0) << status.errors;
+  const auto without = hosts.on_far("status --domain 80 --interface " + std::string{TwoHosts::kFar});
+  EXPECT_EQ(without.exit_code, 1) << without.output;
+}
+
 using WithKeys = FromAnotherHost;
 
 TEST_P(WithKeys, AnOperatorIsObeyedAndAHostWithoutKeysReceivesNothing) {
@@ -222,9 +254,14 @@ const Discovery kSecured{"secured", on("83", TwoHosts::kNear), on("83", TwoHosts
 const Discovery kMulticast{"by_multicast", on("81", TwoHosts::kNear), on("81", TwoHosts::kFar)};
 const Discovery kPeers{"by_unicast_peers", joined(on("82", TwoHosts::kNear), {"--peer", TwoHosts::kFar}),
                        joined(on("82", TwoHosts::kFar), {"--peer", TwoHosts::kNear})};
+const std::vector<std::string> kServerOptions{"--dds", "fastdds", "--discovery-server", TwoHosts::kNear};
+const Discovery kServer{"by_discovery_server", joined(on("80", TwoHosts::kNear), kServerOptions),
+                        joined(on("80", TwoHosts::kFar), kServerOptions), false, true};
+INSTANTIATE_TEST_SUITE_P(Server, ByServer, testing::Values(kServer),
+                         [](const auto& discovery) { return discovery.param.name; });
 INSTANTIATE_TEST_SUITE_P(Secured, WithKeys, testing::Values(kSecured),
                          [](const auto& discovery) { return discovery.param.name; });
-INSTANTIATE_TEST_SUITE_P(Discovery, FromAnotherHost, testing::Values(kMulticast, kPeers, kSecured),
+INSTANTIATE_TEST_SUITE_P(Discovery, FromAnotherHost, testing::Values(kMulticast, kPeers, kServer, kSecured),
                          [](const auto& discovery) { return discovery.param.name; });
 
 }  // namespace

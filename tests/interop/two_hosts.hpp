@@ -74,7 +74,8 @@ class TwoHosts {
     return run("ip netns exec " + near_ + " " + (stack::program_directory() / "crane").string() + " " +
                arguments);
   }
-  /// Device of the pair in the far host.
+  /// Device of the pair in each host.
+  [[nodiscard]] std::string near_device() const { return "cn" + std::to_string(::getpid()); }
   [[nodiscard]] std::string far_device() const { return "cf" + std::to_string(::getpid()); }
   /// Adds an address to the far host, as if one more computer were on the network.
   void add_far(const std::string& address) const {
@@ -126,12 +127,12 @@ class OnHost {
   int own_;
 };
 
-/// A running `crane` command on one of the hosts. Ctrl-C ends it.
-class Running {
+/// A program that runs on one of the hosts. Ctrl-C ends it.
+class RunningProgram {
  public:
-  Running(const std::string& host, const std::vector<std::string>& command) {
-    std::vector<std::string> arguments{"ip", "netns", "exec", host,
-                                       (stack::program_directory() / "crane").string()};
+  RunningProgram(const std::string& host, const std::string& program,
+                 const std::vector<std::string>& command) {
+    std::vector<std::string> arguments{"ip", "netns", "exec", host, program};
     arguments.insert(arguments.end(), command.begin(), command.end());
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());
@@ -141,15 +142,22 @@ class Running {
     ::execvp("ip", argv.data());
     ::_exit(127);
   }
-  ~Running() {
+  ~RunningProgram() {
     ::kill(pid_, SIGINT);
     ::waitpid(pid_, nullptr, 0);
   }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
 
  private:
   pid_t pid_ = 0;
+};
+
+/// A running `crane` command.
+class Running : public RunningProgram {
+ public:
+  Running(const std::string& host, const std::vector<std::string>& command)
+      : RunningProgram{host, (stack::program_directory() / "crane").string(), command} {}
 };
 
 }  // namespace crane::hosts

@@ -70,7 +70,8 @@ std::string no_free_number(const Options& options) {
 
 bool discovers_by_unicast(const Options& options) {
   const auto& own = options.interfaces;
-  return !options.peers.empty() || std::none_of(own.begin(), own.end(), has_multicast);
+  return !options.discovery_server.empty() || !options.peers.empty() ||
+         std::none_of(own.begin(), own.end(), has_multicast);
 }
 
 bool crosses_network(const Options& options) {

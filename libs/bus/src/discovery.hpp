@@ -10,7 +10,8 @@
 
 namespace crane::bus {
 
-/// @return true with explicit peers, and when no interface has multicast (the usual Linux loop-back). Every
+/// @return true with a Discovery Server, with explicit peers, and when no interface has multicast (the usual
+/// Linux loop-back). Every
 ///   participant then contacts the known ports of its own host and of the peers
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
 

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <thread>
 
 #include "back_end.hpp"
+#include "discovery_server.hpp"
 
 namespace crane::bus {
 namespace {
@@ -84,7 +86,40 @@ void check_interfaces(const Options& options, std::vector<std::string>& problems
   if (problems.empty()) await_carrier(options, problems);
 }
 
+/// Replaces the name of the host by its address.
+void check_discovery_server(Options& options, std::vector<std::string>& problems) {
+  if (options.discovery_server.empty()) return;
+  const auto server = discovery_server_in(options.discovery_server);
+  const auto address = ipv4_of(server.host);
+  if (address.empty() || server.port == 0)
+    problems.push_back("discovery_server: '" + options.discovery_server +
+                       "' must be HOST or HOST:PORT, with an address or a name this host knows");
+  if (options.vendor != Vendor::fastdds)
+    problems.push_back(
+        "discovery_server: Cyclone DDS cannot use the Discovery Server of Fast DDS; start every "
+        "program of the crane with --dds fastdds");
+  if (!options.peers.empty()) problems.push_back("discovery_server: give either a server or peers");
+  if (options.credentials)
+    problems.push_back(
+        "discovery_server: the server has no keys; use peers with --secure, or a server with "
+        "--insecure on a network of the crane's own");
+  options.discovery_server = address + ":" + std::to_string(server.port);
+}
+
 }  // namespace
+
+DiscoveryServer discovery_server_in(const std::string& text) {
+  DiscoveryServer server;
+  const auto colon = text.find(':');
+  server.host = text.substr(0, colon);
+  if (colon == std::string::npos) return server;
+  const auto port = text.substr(colon + 1);
+  const auto* const end = port.data() + port.size();
+  const auto [stop, error] = std::from_chars(port.data(), end, server.port);
+  constexpr std::uint32_t kLargest = 65535;
+  if (error != std::errc{} || stop != end || server.port > kLargest) server.port = 0;
+  return server;
+}
 
 Options checked(Options options) {
   constexpr std::uint32_t kMaxDomain = 100;
@@ -105,6 +140,7 @@ Options checked(Options options) {
                            "'; give an address or a name this host knows");
       peer = address;
     }
+    check_discovery_server(options, problems);
   }
   if (!problems.empty()) throw Error{"bus options: " + joined(problems, "; ")};
   return options;

@@ -58,8 +58,14 @@ void add_bus_options(CLI::App& app, BusOptions& options) {
   app.add_option("--interface", options.interfaces,
                  "address of a network interface to use (repeatable); 127.0.0.1: no sample leaves this host")
       ->capture_default_str();
-  app.add_option("--peer", options.peers,
-                 "address of a host to discover by unicast (repeatable); disables multicast discovery");
+  auto* peer =
+      app.add_option("--peer", options.peers,
+                     "address of a host to discover by unicast (repeatable); disables multicast discovery");
+  app.add_option(
+         "--discovery-server", options.discovery_server,
+         "HOST or HOST:PORT of a Discovery Server of Fast DDS (fast-discovery-server), which replaces "
+         "multicast; only with --dds fastdds")
+      ->excludes(peer);
   auto* secure = app.add_option(
       "--secure", options.secure,
       "directory of keys (crane keys make): encrypt all traffic, and accept only programs with "
@@ -85,6 +91,7 @@ bus::Options bus_options(const BusOptions& options, std::string participant, cra
   result.epoch = epoch;
   result.interfaces = options.interfaces;
   result.peers = options.peers;
+  result.discovery_server = options.discovery_server;
   if (!options.secure.empty()) result.credentials = credentials_for(options, source);
   return result;
 }
@@ -98,6 +105,8 @@ std::vector<std::string> arguments(const BusOptions& options) {
                                   "--crane", options.crane};
   for (const auto& interface : options.interfaces) result.insert(result.end(), {"--interface", interface});
   for (const auto& peer : options.peers) result.insert(result.end(), {"--peer", peer});
+  if (!options.discovery_server.empty())
+    result.insert(result.end(), {"--discovery-server", options.discovery_server});
   if (!options.secure.empty())
     result.insert(result.end(), {"--secure", std::filesystem::absolute(options.secure).string()});
   if (options.insecure) result.emplace_back("--insecure");

@@ -1,3 +1,4 @@
+#include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
@@ -14,6 +15,7 @@
 #include "announcement.hpp"
 #include "crane/bus/ports.hpp"
 #include "discovery.hpp"
+#include "discovery_server.hpp"
 #include "fastdds/endpoints.hpp"
 #include "fastdds/security.hpp"
 #include "fastdds/topic_type.hpp"
@@ -62,9 +64,8 @@ void bind_to_interfaces(dds::DomainParticipantQos& qos, const Options& options) 
   qos.transport().user_transports.push_back(std::move(udp));
 }
 
-/// @param numbered  false: the participant joins without a number
-void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& options, bool numbered) {
-  auto& builtin = qos.wire_protocol().builtin;
+/// Contacts the known ports of this host and of the peers.
+void discover_peers(dds::DomainParticipantQos& qos, const Options& options) {
   auto hosts = options.peers;
   hosts.insert(hosts.end(), options.interfaces.begin(), options.interfaces.end());
   fastrtps::rtps::Locator_t locator;
@@ -73,9 +74,30 @@ void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& op
     fastrtps::rtps::IPLocator::setIPv4(locator, host);
     for (std::uint32_t index = 0; index < kMostParticipants; ++index) {
       locator.port = qos.wire_protocol().port.getUnicastPort(options.domain, index);
-      builtin.initialPeersList.push_back(locator);
+      qos.wire_protocol().builtin.initialPeersList.push_back(locator);
     }
   }
+}
+
+/// Contacts a Discovery Server only. A SUPER_CLIENT also receives the announcements of participants without a
+/// matching endpoint, whose message versions this project compares.
+void discover_by_server(dds::DomainParticipantQos& qos, const std::string& address_and_port) {
+  const auto [address, port] = discovery_server_in(address_and_port);
+  fastrtps::rtps::Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  fastrtps::rtps::IPLocator::setIPv4(locator, address);
+  locator.port = port;
+  fastrtps::rtps::RemoteServerAttributes server;
+  fastrtps::rtps::get_server_client_default_guidPrefix(0, server.guidPrefix);
+  server.metatrafficUnicastLocatorList.push_back(locator);
+  auto& config = qos.wire_protocol().builtin.discovery_config;
+  config.discoveryProtocol = fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
+  config.m_DiscoveryServers.push_back(server);
+}
+
+/// @param numbered  false: the participant joins without a number
+void receive_by_unicast(dds::DomainParticipantQos& qos, const Options& options, bool numbered) {
+  auto& builtin = qos.wire_protocol().builtin;
   builtin.avoid_builtin_multicast = true;
   fastrtps::rtps::Locator_t any;
   any.kind = LOCATOR_KIND_UDPv4;
@@ -103,7 +125,12 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   builtin.typelookup_config.use_server = false;
   bind_to_interfaces(qos, options);
   if (options.credentials) fastdds::secure(qos, *options.credentials);
-  if (discovers_by_unicast(options)) discover_peers_by_unicast(qos, options, numbered);
+  if (!discovers_by_unicast(options)) return qos;
+  receive_by_unicast(qos, options, numbered);
+  if (options.discovery_server.empty())
+    discover_peers(qos, options);
+  else
+    discover_by_server(qos, options.discovery_server);
   return qos;
 }
 

@@ -42,7 +42,10 @@ struct Options {
   crane_Source source = crane_SOURCE_NONE;           ///< Header.source of every published sample
   std::uint32_t epoch = 0;                           ///< Header.epoch of every published sample
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses to bind to
-  std::vector<std::string> peers{};          ///< not empty: unicast discovery of these hosts, no multicast
+  std::vector<std::string> peers{};  ///< not empty: unicast discovery of these hosts, no multicast
+  /// "HOST" or "HOST:PORT" of a Discovery Server of Fast DDS, which replaces multicast and peers; empty:
+  /// none.
+  std::string discovery_server{};
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
   /// needs no credentials.

@@ -30,8 +30,9 @@ struct BusOptions {
   std::string crane = "crane";
   std::vector<std::string> interfaces{"127.0.0.1"};
   std::vector<std::string> peers;
-  std::string secure;     ///< directory of keys; empty: DDS Security is off
-  bool insecure = false;  ///< true: the user permits access from other hosts without keys
+  std::string discovery_server;  ///< as bus::Options::discovery_server
+  std::string secure;            ///< directory of keys; empty: DDS Security is off
+  bool insecure = false;         ///< true: the user permits access from other hosts without keys
 };
 void add_bus_options(CLI::App& app, BusOptions& options);
 /// @throws ConfigurationError when keys are missing or do not fit the source, and when a process that writes
