@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <set>
 
 #include "crane/bus/ports.hpp"
@@ -14,31 +13,6 @@ namespace crane::doctor {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// Event handlers run on threads of the vendor.
-class Refusals {
- public:
-  void add(const bus::Event& event, const topics::Description& topic) {
-    if (event.kind != bus::EventKind::incompatible_qos) return;
-    const std::lock_guard lock{mutex_};
-    const Refused one{std::string{topic.name}, std::string{event.policy}, wanted(event.policy)};
-    if (std::ranges::find(all_, one) == all_.end()) all_.push_back(one);
-  }
-  [[nodiscard]] std::vector<Refused> all() const {
-    const std::lock_guard lock{mutex_};
-    return all_;
-  }
-
- private:
-  /// Quality of service of every reader of this project (libs/bus, endpoint quality).
-  static std::string wanted(std::string_view policy) {
-    if (policy == "reliability") return "reliable";
-    if (policy == "data_representation") return "XCDR1";
-    return "the default of DDS";
-  }
-  mutable std::mutex mutex_;
-  std::vector<Refused> all_;
-};
 
 std::string list_of(const std::vector<std::string>& all) {
   std::string text;
@@ -111,13 +85,8 @@ Findings cranes_announced(const ExpectedCrane& expected, const std::vector<Annou
 
 Observed listen_on(bus::Bus& bus, milliseconds duration) {
   Observed observed;
-  Refusals refusals;
   std::vector<bus::CdrSubscriber> readers;
-  for (const auto& topic : topics::kAll) {
-    bus::EndpointOptions endpoint;
-    endpoint.on_event = [&refusals, &topic](const bus::Event& event) { refusals.add(event, topic); };
-    readers.push_back(bus.cdr_subscriber(topic, endpoint));
-  }
+  for (const auto& topic : topics::kAll) readers.push_back(bus.cdr_subscriber(topic));
   auto nodes = bus.subscriber(topics::node);
   const auto end_ns = runtime::monotonic_ns() + std::chrono::nanoseconds{duration}.count();
   std::vector<std::uint8_t> cdr;
@@ -139,7 +108,9 @@ Observed listen_on(bus::Bus& bus, milliseconds duration) {
   for (const auto& reader : readers)
     if (reader.counts().rejected > 0)
       observed.rejected[std::string{reader.topic().name}] = reader.counts().rejected;
-  observed.refused = refusals.all();
+  observed.endpoints = bus.found_endpoints();
+  std::erase_if(observed.endpoints,
+                [&](const auto& one) { return !bus::belongs_to(one, bus.options().crane); });
   observed.other_versions = bus.other_versions();
   return observed;
 }
@@ -214,11 +185,7 @@ Findings judge_mismatches(const Observed& observed) {
                             ", this program has version " + std::to_string(crane_MESSAGES_VERSION) +
                             "; its samples are dropped",
                         "run programs of one release, or give each crane its own --crane or --domain"});
-  for (const auto& refused : observed.refused)
-    findings.push_back({Grade::problem, "net", "quality_of_service",
-                        "a writer of " + refused.topic + " offers another " + refused.policy +
-                            " than the wanted: " + refused.wanted + "; its samples do not arrive",
-                        "write with the quality of service of crane.idl, or end that program"});
+  std::ranges::move(judge_endpoints(observed.endpoints), std::back_inserter(findings));
   if (observed.other_versions.empty())
     for (const auto& [topic, count] : observed.rejected)
       findings.push_back({Grade::problem, "net", "samples_rejected",

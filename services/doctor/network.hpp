@@ -7,17 +7,11 @@
 
 #include "crane/bus/bus.hpp"
 #include "doctor/announcements.hpp"
+#include "doctor/endpoints.hpp"
 #include "doctor/finding.hpp"
 #include "doctor/processes.hpp"
 
 namespace crane::doctor {
-
-/// A discovered writer whose quality of service does not match.
-struct Refused {
-  std::string topic, policy;
-  std::string wanted;  ///< value that the readers of this project require
-  bool operator==(const Refused&) const = default;
-};
 
 /// Observations of a participant of the requested crane.
 struct Observed {
@@ -25,7 +19,7 @@ struct Observed {
   std::map<std::string, double> clock_offset_s;    ///< by process: its clock minus the clock of this computer
   std::uint64_t states = 0;                        ///< samples of crane/state
   std::map<std::string, std::uint64_t> rejected;   ///< by topic: samples with a wrong CRC
-  std::vector<Refused> refused;
+  std::vector<bus::FoundEndpoint> endpoints;       ///< of other participants, of this crane
   std::vector<bus::OtherVersion> other_versions;
 };
 [[nodiscard]] Observed listen_on(bus::Bus& bus, std::chrono::milliseconds duration);

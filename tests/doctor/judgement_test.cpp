@@ -82,6 +82,65 @@ TEST(Doctor, NamesTheOptionThatWouldFindTheCrane) {
   EXPECT_EQ(judge_silence(kExpected, {}, {}, {})[0].code, "nobody_publishes");
 }
 
+bus::FoundEndpoint endpoint(bool writes, const topics::Description& topic = topics::state.description) {
+  return {.writes = writes,
+          .topic = std::string{topic.name},
+          .type = std::string{topic.type},
+          .partitions = {"crane"},
+          .policies = bus::reader_policies(topic),
+          .origin = "program"};
+}
+
+TEST(Doctor, FindsNothingInEndpointsOfTheCraneAndInOtherTopics) {
+  std::vector<bus::FoundEndpoint> all;
+  for (const auto& topic : topics::kAll)
+    for (const bool writes : {true, false}) all.push_back(endpoint(writes, topic));
+  auto other = endpoint(true);
+  other.topic = "lamp";
+  other.policies.reliable = false;
+  all.push_back(other);
+  EXPECT_TRUE(judge_endpoints(all).empty());
+}
+
+TEST(Doctor, NamesEachPolicyThatAWriterLacksOnce) {
+  auto writer = endpoint(true, topics::node.description);
+  writer.policies = {.exclusive = true, .representations = {2, 0}};
+  const auto found = judge_endpoints({writer, writer, endpoint(false, topics::node.description)});
+  ASSERT_EQ(found.size(), 4U);
+  constexpr std::array kDifferences{"reliability best_effort, the readers of the crane request reliable",
+                                    "durability volatile, the readers of the crane request transient_local",
+                                    "ownership exclusive, the readers of the crane request shared",
+                                    "data representation XCDR2, the readers of the crane request XCDR1"};
+  for (std::size_t i = 0; i < kDifferences.size(); ++i)
+    EXPECT_EQ(found[i].what, "a writer of crane/node (program) offers " + std::string{kDifferences.at(i)} +
+                                 ": its samples do not arrive");
+}
+
+TEST(Doctor, ComparesAReaderWithTheWritersOfTheCrane) {
+  auto reader = endpoint(false);
+  reader.policies.liveliness = 2;
+  reader.policies.lease = std::chrono::milliseconds{100};
+  EXPECT_TRUE(judge_endpoints({reader}).empty()) << "without a writer, the reader lacks nothing";
+  const auto found = judge_endpoints({reader, endpoint(true)});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].what,
+            "a reader of crane/state (program) requests liveliness manual_by_topic, the writer of the crane "
+            "offers automatic: it receives no sample");
+  EXPECT_THAT(found[1].what, HasSubstr("requests liveliness lease 100000 us"));
+}
+
+TEST(Doctor, AssignsAnEndpointToACraneByNameAndPattern) {
+  auto one = endpoint(true);
+  for (const std::string pattern : {"crane", "cr*", "*", "cr?ne"}) {
+    one.partitions = {"other", pattern};
+    EXPECT_TRUE(bus::belongs_to(one, "crane")) << pattern;
+  }
+  one.partitions = {"north"};
+  EXPECT_FALSE(bus::belongs_to(one, "crane"));
+  one.partitions = {};
+  EXPECT_FALSE(bus::belongs_to(one, "crane"));
+}
+
 TEST(Doctor, CountsTheParticipantsThatUnicastFinds) {
   const std::vector<LocalProcess> few(119, running({})), many(120, running({}));
   EXPECT_TRUE(judge_number_of_participants(few, 0).empty());

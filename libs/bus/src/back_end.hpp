@@ -87,6 +87,7 @@ class BackEnd : public std::enable_shared_from_this<BackEnd> {
   virtual std::unique_ptr<detail::Reader> reader(const topics::Description&, const EndpointOptions&,
                                                  std::shared_ptr<Doorbell> doorbell) = 0;
   virtual std::vector<OtherVersion> other_versions() { return {}; }
+  virtual std::vector<FoundEndpoint> found_endpoints() { return {}; }
   /// UntypedSubscriber::origin_of() of a writer of the participant.
   virtual std::string origin_of(const ParticipantId& /*participant*/) { return {}; }
 };

@@ -137,5 +137,6 @@ bool BareLink::wait(std::chrono::nanoseconds timeout) { return state_->doorbell-
 bool BareLink::matched() const { return state_->reader->matched() > 0 && state_->writer->matched() > 0; }
 
 std::vector<OtherVersion> Bus::other_versions() { return state_->back_end->other_versions(); }
+std::vector<FoundEndpoint> Bus::found_endpoints() { return state_->back_end->found_endpoints(); }
 
 }  // namespace crane::bus

@@ -6,6 +6,7 @@
 
 #include "announcement.hpp"
 #include "cyclone/domain.hpp"
+#include "cyclone/found_endpoints.hpp"
 #include "cyclone/security.hpp"
 
 namespace crane::bus {
@@ -258,6 +259,9 @@ class CycloneBackEnd final : public BackEnd {
   std::vector<OtherVersion> other_versions() override {
     update_census();
     return census_.others();
+  }
+  std::vector<FoundEndpoint> found_endpoints() override {
+    return cyclone::found_endpoints(participant_, [this](const auto& one) { return origin_of(one); });
   }
   std::string origin_of(const ParticipantId& participant) override {
     update_census();

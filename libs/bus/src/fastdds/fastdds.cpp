@@ -17,6 +17,7 @@
 #include "discovery.hpp"
 #include "discovery_server.hpp"
 #include "fastdds/endpoints.hpp"
+#include "fastdds/found_endpoints.hpp"
 #include "fastdds/security.hpp"
 #include "fastdds/topic_type.hpp"
 #include "vendor_log.hpp"
@@ -183,7 +184,7 @@ struct ParticipantDeleter {
   }
 };
 
-/// Stores the announcements of participants. Runs on a thread of Fast DDS.
+/// Stores the announcements of participants and endpoints. Runs on a thread of Fast DDS.
 class Discovery final : public dds::DomainParticipantListener {
  public:
   explicit Discovery(const Options& options) : census_{options.messages_version, options.crane} {}
@@ -199,10 +200,20 @@ class Discovery final : public dds::DomainParticipantListener {
     const auto& data = found.info.m_userData.getValue();
     census_.note(key, std::string{data.begin(), data.end()});
   }
+  void on_publisher_discovery(dds::DomainParticipant* /*own*/,
+                              fastrtps::rtps::WriterDiscoveryInfo&& found) override {
+    endpoints_.note(found);
+  }
+  void on_subscriber_discovery(dds::DomainParticipant* /*own*/,
+                               fastrtps::rtps::ReaderDiscoveryInfo&& found) override {
+    endpoints_.note(found);
+  }
   [[nodiscard]] const Census& census() const { return census_; }
+  [[nodiscard]] const fastdds::FoundEndpoints& endpoints() const { return endpoints_; }
 
  private:
   Census census_;
+  fastdds::FoundEndpoints endpoints_;
 };
 
 class FastBackEnd final : public BackEnd {
@@ -241,6 +252,9 @@ class FastBackEnd final : public BackEnd {
   }
 
   std::vector<OtherVersion> other_versions() override { return discovery_.census().others(); }
+  std::vector<FoundEndpoint> found_endpoints() override {
+    return discovery_.endpoints().all([this](const auto& one) { return origin_of(one); });
+  }
   std::string origin_of(const ParticipantId& participant) override {
     return discovery_.census().origin_of(participant);
   }

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "crane/bus/endpoints.hpp"
+#include "crane/bus/found_endpoint.hpp"
 #include "crane/bus/options.hpp"
 #include "crane/topics.hpp"
 
@@ -86,6 +87,9 @@ class Bus {
 
   /// Participants of this crane whose messages have another version. This bus drops all their samples.
   [[nodiscard]] std::vector<OtherVersion> other_versions();
+  /// Readers and writers of all other participants of the domain, found by discovery so far. The memory back
+  /// end finds none.
+  [[nodiscard]] std::vector<FoundEndpoint> found_endpoints();
 
   [[nodiscard]] const Options& options() const;
 
