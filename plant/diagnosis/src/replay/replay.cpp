@@ -227,7 +227,7 @@ struct Replay::RowTimeOutputs {
 };
 
 void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
-                 std::span<double> out) const {
+                 std::span<double> out, std::vector<double>* end) const {
   const CraneOnRun& p = *crane_on_run_;
   const double period_s = p.source.run.period_s;
   const std::vector<Output> outputs = simulated_outputs(p.source, part);
@@ -278,6 +278,13 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
     if (row_times ? !row_times->evaluated(first + k) : !sensing)
       for (std::size_t i = 0; i < outputs.size(); ++i)
         out[i * rows + k] = position_of(integrator.state, outputs[i]);
+    if (k + 1 == rows && end != nullptr) {
+      end->clear();
+      for (const Output output : outputs)
+        end->insert(end->end(), {position_of(integrator.state, output), rate_of(integrator.state, output)});
+      for (const std::size_t i : p.ringing)
+        end->insert(end->end(), {integrator.inner[i].position, integrator.inner[i].rate});
+    }
     // A time after the grid's of the last row needs one more interval.
     const bool beyond = row_times && k + 1 == rows && p.source.run.offset_s[first + k] > 0;
     if (k + 1 == rows && !(beyond && first + k + 1 < p.source.run.rows())) break;

@@ -186,18 +186,67 @@ void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) co
   marginalise_start(fit);
 }
 
+WindowFit Problem::continued_from(const Replay& replay, std::size_t at, const Fits& fits) const {
+  const Window &before = windows_[at - 1], &window = windows_[at];
+  const std::size_t from = before.first - before.lead, rows = window.first - window.lead - from + 1;
+  const VectorXd& start = fits[at - 1].start;
+  std::vector<double> outputs(rows * outputs_.size()), end;
+  replay.run(part_, from, rows, {start.data(), static_cast<std::size_t>(start.size())}, outputs, &end);
+  WindowFit found = fit_from(replay, at, measured(window),
+                             Eigen::Map<const VectorXd>(end.data(), static_cast<Index>(end.size())));
+  found.measured_start = fits[at].measured_start;
+  marginalise_start(found);
+  return found;
+}
+
+/// No sensor measures the coordinates that ring freely: a fit from the measured start can end in another
+/// minimum. The motion continues from window to window. Each window is therefore also fitted from the end of
+/// the window before, again while this improves the window before.
+void Problem::continue_ringing(const Replays& crane, Fits& fits) const {
+  const auto misfit = [](const WindowFit& fit) {
+    return fit.residual.squaredNorm() + fit.start_log_determinant;
+  };
+  std::vector<std::size_t> next;
+  for (std::size_t w = 1; w < windows_.size(); ++w)
+    if (windows_[w - 1].run == windows_[w].run &&
+        windows_[w - 1].first + windows_[w - 1].rows == windows_[w].first)
+      next.push_back(w);
+  const std::vector<std::size_t> continued = next;
+  while (!next.empty()) {
+    std::vector<WindowFit> found(next.size());
+    parallel_for(next.size(), [&](std::size_t i) {
+      found[i] = continued_from(crane[windows_[next[i]].run], next[i], fits);
+    });
+    std::vector<std::size_t> after;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      const double now = misfit(fits[next[i]]);
+      const double least = disturbances_.empty() ? kPlainStartConverged * now : kStartConverged;
+      if (!(misfit(found[i]) < now - least)) continue;
+      fits[next[i]] = std::move(found[i]);
+      if (std::ranges::binary_search(continued, next[i] + 1)) after.push_back(next[i] + 1);
+    }
+    next = std::move(after);
+  }
+}
+
 Fits Problem::fit(const Replays& crane) const {
   Fits fits(windows_.size());
   parallel_for(windows_.size(), [&](std::size_t w) { fit_start(crane[windows_[w].run], w, fits[w]); });
+  if (part_ == Part::load && !fits.empty() && fits[0].start.size() > output_start_size())
+    continue_ringing(crane, fits);
   return fits;
 }
 
+bool Problem::has_other_coordinates(const Replays& crane, const Fits& fits) const {
+  return !fits.empty() &&
+         static_cast<std::size_t>(fits[0].start.size()) != crane[windows_[0].run].start_size(part_);
+}
+
 Fits Problem::fit_again(const Replays& crane, const Fits& near) const {
+  if (has_other_coordinates(crane, near)) return fit(crane);
   Fits fits = near;
   parallel_for(windows_.size(), [&](std::size_t w) {
     const Replay& replay = crane[windows_[w].run];
-    if (static_cast<std::size_t>(fits[w].start.size()) != replay.start_size(part_))
-      return fit_start(replay, w, fits[w]);
     const VectorXd target = measured(windows_[w]), begin = fits[w].start;
     fits[w] = fit_from(replay, w, target, begin);
     fits[w].measured_start = measured_start(replay, windows_[w]);
@@ -207,13 +256,12 @@ Fits Problem::fit_again(const Replays& crane, const Fits& near) const {
 }
 
 Fits Problem::fit_near(const Replays& crane, const Fits& near) const {
+  if (has_other_coordinates(crane, near)) return fit(crane);
   Fits fits = near;
   parallel_for(windows_.size(), [&](std::size_t w) {
     const Window& window = windows_[w];
     WindowFit& fit = fits[w];
     const Replay& replay = crane[window.run];
-    if (static_cast<std::size_t>(fit.start.size()) != replay.start_size(part_))
-      return fit_start(replay, w, fit);
     const VectorXd target = measured(window), moved = measured_start(replay, window);
     fit.start = transferred_start(fit, moved);
     fit.measured_start = moved;

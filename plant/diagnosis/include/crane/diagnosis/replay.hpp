@@ -78,9 +78,10 @@ class Replay {
   /// Simulates rows first ... first + rows - 1 from `start` at the grid's row `first`.
   /// @param out outputs one after the other, each row at its own time
   /// @param start as long as start_size(part), or without the inner coordinates
+  /// @param end receives the state at the grid's last row, in the form of `start`
   /// @pre first + rows <= rows of the run; sizes fit
   void run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
-           std::span<double> out) const;
+           std::span<double> out, std::vector<double>* end = nullptr) const;
   /// The model's motion of a drive from each row to the next, evaluated along the measured motion.
   struct Increments {
     std::vector<double> position;      ///< measured, sensor terms inverted, m or rad
