@@ -212,6 +212,25 @@ TEST(AnotherHost, WithoutCarrierIsNamedAndRefused) {
   }
 }
 
+class LostInterface : public testing::TestWithParam<const char*> {};
+
+TEST_P(LostInterface, DoesNotKeepAStackFromEnding) {
+  if (::geteuid() != 0) GTEST_SKIP() << "network namespaces need root";
+  const TwoHosts hosts;
+  ASSERT_TRUE(hosts.ok());
+  const std::vector<std::string> at{"--domain", "84", "--interface", TwoHosts::kNear, "--dds", GetParam()};
+  Running stack{hosts.near(), joined({"up", "--priority", "0", "--no-black-box", "--insecure"}, at)};
+  Answer status;
+  for (int i = 0; i < 10 && status.exit_code != 0; ++i)
+    status = hosts.on_near(std::string{"status --domain 84 --interface "} + TwoHosts::kNear);
+  ASSERT_EQ(status.exit_code, 0) << status.errors;
+  hosts.remove_link();
+  EXPECT_TRUE(stack.interrupted(20s));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, LostInterface, testing::Values("cyclone", "fastdds"),
+                         [](const auto& vendor) { return std::string{vendor.param}; });
+
 using ByServer = FromAnotherHost;
 
 TEST_P(ByServer, WithoutMulticastTheServerIsNeeded) {

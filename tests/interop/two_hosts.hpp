@@ -1,12 +1,15 @@
 #pragma once
 /// Two hosts on this computer: network namespaces joined by a veth pair. Needs root.
 #include <fcntl.h>
+#include <poll.h>
 #include <sched.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -81,6 +84,8 @@ class TwoHosts {
   void add_far(const std::string& address) const {
     run("ip -n " + far_ + " addr add " + address + "/24 dev " + far_device());
   }
+  /// Removes the link, as when a USB network adapter is pulled out.
+  void remove_link() const { run("ip -n " + near_ + " link del " + near_device()); }
   void unplug_far() const { run("ip -n " + far_ + " link set cf" + std::to_string(::getpid()) + " down"); }
   static constexpr const char* kNear = "10.77.0.1";
   static constexpr const char* kFar = "10.77.0.2";
@@ -142,12 +147,23 @@ class RunningProgram {
     ::execvp("ip", argv.data());
     ::_exit(127);
   }
-  ~RunningProgram() {
-    ::kill(pid_, SIGINT);
-    ::waitpid(pid_, nullptr, 0);
-  }
+  ~RunningProgram() { (void)interrupted(std::chrono::minutes{1}); }
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// Interrupts the program as Ctrl-C does, and kills it after `limit`. @return true when it ended by itself
+  bool interrupted(std::chrono::milliseconds limit) {
+    if (pid_ == 0) return true;
+    const int handle = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));
+    ::kill(pid_, SIGINT);
+    pollfd end{.fd = handle, .events = POLLIN, .revents = 0};
+    const bool ended = ::poll(&end, 1, static_cast<int>(limit.count())) == 1;
+    if (!ended) ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+    ::close(handle);
+    pid_ = 0;
+    return ended;
+  }
 
  private:
   pid_t pid_ = 0;
