@@ -64,8 +64,9 @@ std::size_t SharedFile::size() const {
 }
 
 void* SharedFile::map(std::size_t wanted) {
-  if (size() < wanted && ::ftruncate(file_, static_cast<off_t>(wanted)) != 0)
-    throw refused(name_, std::strerror(errno));
+  // Takes the memory now: an access to memory that the computer does not have ends the process with SIGBUS.
+  if (const int error = ::posix_fallocate(file_, 0, static_cast<off_t>(wanted)); error != 0)
+    throw refused(name_, std::strerror(error));
   void* memory = ::mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
   if (memory == MAP_FAILED) throw refused(name_, std::strerror(errno));
   memory_ = memory;

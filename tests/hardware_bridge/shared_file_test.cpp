@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sched.h>
 #include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,13 +21,27 @@ std::string private_name(const char* what) {
   return "/crane_shared_file_test_" + std::to_string(::getpid()) + "_" + what;
 }
 
-/// Runs `attack` as another user in a process of its own. @return its result
-bool as_another_user(const std::function<bool()>& attack) {
+/// Runs `action` in a process of its own. @return its result; false when the process is killed
+bool in_a_process(const std::function<bool()>& action) {
   const auto child = ::fork();
-  if (child == 0) ::_exit(::setuid(kNobody) == 0 && attack() ? 0 : 1);
+  if (child == 0) ::_exit(action() ? 0 : 1);
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+bool as_another_user(const std::function<bool()>& attack) {
+  return in_a_process([&] { return ::setuid(kNobody) == 0 && attack(); });
+}
+
+/// Gives this process a full /dev/shm of its own.
+bool fill_shared_memory() {
+  if (::unshare(CLONE_NEWNS) != 0 || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      ::mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=4k") != 0)
+    return false;
+  const int filler = ::shm_open("/filler", O_RDWR | O_CREAT, 0600);
+  const bool full = ::posix_fallocate(filler, 0, 4096) == 0;
+  ::close(filler);
+  return full;
 }
 
 class SharedFileTest : public testing::Test {
@@ -62,6 +78,22 @@ TEST_F(SharedFileTest, CannotBeOpenedByAnotherUserAndNamesTheRemedy) {
       const SharedFile foreign{name_};
     } catch (const BoardError& error) {
       return testing::Matches(testing::HasSubstr("another user"))(error.what());
+    }
+    return false;
+  }));
+}
+
+/// Without a check, the first access to the memory would end the process with SIGBUS.
+TEST_F(SharedFileTest, IsRefusedWhenTheMemoryOfTheComputerIsFull) {
+  if (::geteuid() != 0) GTEST_SKIP() << "a /dev/shm of its own needs root";
+  EXPECT_TRUE(in_a_process([this] {
+    if (!fill_shared_memory()) return false;
+    try {
+      SharedFile file{name_};
+      *static_cast<volatile char*>(file.map(sizeof(SharedLines))) = 1;
+    } catch (const BoardError& error) {
+      return testing::Matches(testing::AllOf(testing::HasSubstr(name_), testing::HasSubstr("No space left")))(
+          std::string{error.what()});
     }
     return false;
   }));
