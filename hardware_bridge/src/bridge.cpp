@@ -135,8 +135,7 @@ void Bridge::take_requests() {
     if (request->kind == crane_REQUEST_ADVANCE) {
       until_tick_ = std::max(until_tick_, request->until_tick);
     } else {
-      const runtime::Kick kick = runtime::kick_of(*request);
-      const bool kicked = board_->kick(kick.radial_radps, kick.tangential_radps);
+      const bool kicked = board_->kick(request->kick_radps[0], request->kick_radps[1]);
       requests_.reply(*request, request->header, kicked,
                       kicked ? "" : "this board is a real rig: push the load by hand");
     }

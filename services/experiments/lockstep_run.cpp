@@ -211,7 +211,7 @@ class LockstepRun {
     }
     for (const auto& kick : scenario_.kicks) {
       stack::OperatorRequest wanted{.kind = crane_REQUEST_KICK,
-                                    .kick = {kick.radial_radps, kick.tangential_radps}};
+                                    .kick_radps = {kick.radial_radps, kick.tangential_radps}};
       wanted.apply_tick = outcome_.hold_tick + ticks(kick.at_s);
       request(wanted, {clock_master_});
     }

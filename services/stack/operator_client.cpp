@@ -31,10 +31,8 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
   request.kind = wanted.kind;
   request.apply_tick = wanted.apply_tick;
   std::ranges::copy(wanted.selected, request.selected);
-  if (wanted.kind == crane_REQUEST_KICK)
-    runtime::assign_kick(request, wanted.kick);
-  else
-    runtime::assign(request.target, wanted.target);
+  runtime::assign(request.target, wanted.target);
+  std::ranges::copy(wanted.kick_radps, request.kick_radps);
   request.until_tick = wanted.until_tick;
   std::copy_n(wanted.sines.begin(), std::min(wanted.sines.size(), std::size(request.sine)), request.sine);
   request.duration_s = wanted.duration_s;

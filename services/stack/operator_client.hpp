@@ -17,7 +17,7 @@ struct OperatorRequest {
   crane_RequestKind kind = crane_REQUEST_NONE;
   std::array<bool, 3> selected{};
   std::array<double, 3> target{};                        ///< move, follow: m, rad, m of cable
-  runtime::Kick kick{};                                  ///< kick
+  std::array<double, 2> kick_radps{};                    ///< kick: radial, tangential
   std::uint64_t apply_tick = 0;                          ///< 0: at once
   std::uint64_t until_tick = 0;                          ///< advance
   std::vector<crane_Sine> sines{};                       ///< follow: at most four

@@ -34,7 +34,7 @@ Excursion excursion_of(const msg::Request& request) {
 
 std::string target_problem(const msg::Request& request, const AxisLimits& axis, std::size_t i) {
   const auto excursion = excursion_of(request);
-  const double wanted = runtime::axis_targets(request)[i];
+  const double wanted = runtime::values(request.target)[i];
   for (const double target : {wanted - excursion.distance, wanted + excursion.distance})
     if (!target_allowed(axis, target) && enabled(request_target))
       return std::string{plant::kCoordinates[i].name} + " target " + std::to_string(target) +
@@ -61,7 +61,7 @@ std::string follow_problem(const msg::Request& request, const Limits& limits) {
 /// voltage. Without sines the reference is a step; its response is the purpose of the request.
 std::string begin_problem(const msg::Request& request, const Limits& limits, const PerAxis& position) {
   if (excursion_of(request).distance == 0) return "";
-  const PerAxis target = runtime::axis_targets(request);
+  const PerAxis target = runtime::values(request.target);
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double distance = std::abs(target[i] - position[i]);
     if (!request.selected[i] || distance <= limits.largest_follow_jump[i]) continue;
@@ -106,7 +106,7 @@ std::string path_problem(const Limits& limits, const control::Path& path) {
 bool is_long(const msg::Request& request, const PerAxis& position) {
   constexpr std::size_t kSlew = 1;
   constexpr double kShortestRadius_m = 0.1;  // as for the inching steps of `crane jog`
-  const PerAxis target = runtime::axis_targets(request);
+  const PerAxis target = runtime::values(request.target);
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double arm = i == kSlew ? std::max(std::abs(position[0]), kShortestRadius_m) : 1;
     if (request.selected[i] && !(arm * std::abs(target[i] - position[i]) <= kShortStep_m)) return true;
@@ -172,7 +172,7 @@ std::string problem_at(const msg::Request& request, const Limits& limits, const 
   const bool moves = request.kind == crane_REQUEST_MOVE, follows = request.kind == crane_REQUEST_FOLLOW;
   if (problem.empty() && follows) problem = begin_problem(request, limits, position);
   if (!problem.empty() || (!moves && !follows) || limits.zones.empty()) return problem;
-  const PerAxis wanted = runtime::axis_targets(request);
+  const PerAxis wanted = runtime::values(request.target);
   if (moves) {
     PerAxis target = position;
     for (std::size_t i = 0; i < kAxes; ++i)

@@ -75,7 +75,7 @@ msg::AcceptedMove accepted_move(const msg::Request& request, std::uint64_t numbe
   std::ranges::copy(request.client, move.client);
   move.kind = request.kind;
   std::ranges::copy(request.selected, move.selected);
-  runtime::assign(move.target, runtime::axis_targets(request));
+  runtime::assign(move.target, runtime::values(request.target));
   std::ranges::copy(request.sine, move.sine);
   move.duration_s = request.duration_s;
   return move;

@@ -108,6 +108,7 @@ TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {
     sines.push_back(
         {{"amplitude", sine.amplitude}, {"frequency_hz", sine.frequency_hz}, {"phase_rad", sine.phase_rad}});
   }
+  for (double& value : q.kick_radps) value = f.real();
   q.duration_s = f.real();
   q.mode = crane_MODE_MAINTENANCE;
   f.number(q.crc32c);
@@ -120,6 +121,7 @@ TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {
                                                                  {"target", expected(q.target)},
                                                                  {"until_tick", q.until_tick},
                                                                  {"sine", sines},
+                                                                 {"kick_radps", expected(q.kick_radps)},
                                                                  {"duration_s", q.duration_s},
                                                                  {"mode", "MODE_MAINTENANCE"},
                                                                  {"crc32c", q.crc32c}}));

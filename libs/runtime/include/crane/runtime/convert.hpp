@@ -65,26 +65,6 @@ inline void assign(double (&field)[control::kAxes], const std::array<double, con
   return {field[0], field[1], field[2]};
 }
 
-/// Change of the swing rates of the load by a kick.
-struct Kick {
-  double radial_radps = 0, tangential_radps = 0;
-};
-
-// The meaning of Request.target depends on Request.kind. Programs read and write it with these functions.
-
-/// Targets of the axes, m, rad, m of cable. @pre not REQUEST_KICK
-[[nodiscard]] inline std::array<double, control::kAxes> axis_targets(const msg::Request& request) {
-  return values(request.target);
-}
-/// @pre REQUEST_KICK
-[[nodiscard]] inline Kick kick_of(const msg::Request& request) {
-  return {request.target[0], request.target[1]};
-}
-/// @pre REQUEST_KICK
-inline void assign_kick(msg::Request& request, const Kick& kick) {
-  assign(request.target, {kick.radial_radps, kick.tangential_radps, 0});
-}
-
 /// Header of a sample that is computed from `cause`: same tick and sample time. publish() sets source and
 /// epoch.
 [[nodiscard]] inline msg::Header answer_to(const msg::Header& cause) {
