@@ -11,12 +11,11 @@ FreeParameter free_parameter(const std::string& cause, const std::string& name, 
   const plant::TermKind& kind = *plant::find_term(cause);
   const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
                                   [&](const plant::TermParameter& p) { return p.name == name; });
-  return {name,
-          std::string{found->unit},
-          found->default_value,
-          std::max(low, found->low),
-          std::min(high, found->high),
-          step};
+  const double null = found->default_value, lowest = std::max(low, found->low),
+               highest = std::min(high, found->high);
+  // Steps grow with mass and length of the load, the range of a term does not.
+  const double room = std::max(highest - null, null - lowest);
+  return {name, std::string{found->unit}, null, lowest, highest, std::min(step, room)};
 }
 
 Candidate amount(const std::string& cause, const std::string& axis, const std::string& parameter, double low,
@@ -27,7 +26,7 @@ Candidate amount(const std::string& cause, const std::string& axis, const std::s
   c.parameters = {free_parameter(cause, parameter, low, high, step)};
   const FreeParameter& p = c.parameters.front();
   c.one_sided = p.low >= p.null || p.high <= p.null;
-  c.shapes = {{{c.setting({p.null + step})}, {step}}};
+  c.shapes = {{{c.setting({p.null + p.step})}, {p.step}}};
   c.of_amounts = [p](const Shape&, const std::vector<double>& amounts) {
     return std::vector<double>{std::clamp(p.null + amounts[0], p.low, p.high)};
   };

@@ -25,7 +25,7 @@ TermKind load_linear_drag() {
               "viscous drag acts on the load; r_L' is the velocity of the load relative to the ground (2.12)",
           .acts_on = ActsOn::load,
           .axes = {""},
-          .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1000, "d, force / speed"}},
+          .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1e6, "d, force / speed"}},
           .example = {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<LoadLinearDrag>(s);

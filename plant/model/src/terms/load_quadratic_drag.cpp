@@ -26,7 +26,7 @@ TermKind load_quadratic_drag() {
           .source = "the drag of still air acts on the load, d = rho c_w A / 2",
           .acts_on = ActsOn::load,
           .axes = {""},
-          .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1000, "d, force / speed^2"}},
+          .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1e6, "d, force / speed^2"}},
           .example = {"load_quadratic_drag", "", {{"coefficient_ns2pm2", 0.1}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<LoadQuadraticDrag>(s);

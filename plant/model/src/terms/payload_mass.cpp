@@ -22,7 +22,7 @@ TermKind payload_mass() {
       .source = "the load mass differs from that of the rig file",
       .acts_on = ActsOn::parameters,
       .axes = {""},
-      .parameters = {{"delta_kg", "kg", 0, -1000, 1000,
+      .parameters = {{"delta_kg", "kg", 0, -1e6, 1e6,
                       "d, true load mass minus that of the rig file; the true mass must not be negative"}},
       .example = {"payload_mass", "", {{"delta_kg", 0.5}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<PayloadMass>(s); }};

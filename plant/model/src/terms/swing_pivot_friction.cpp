@@ -36,8 +36,8 @@ TermKind swing_pivot_friction() {
           .source = "the bearings of the upper cable joint, at the swing encoders, have friction",
           .acts_on = ActsOn::load,
           .axes = {"radial", "tangential", ""},
-          .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 100, "b, viscous friction"},
-                         {"coulomb_nm", "N m", 0, 0, 100, "c, Coulomb friction"},
+          .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 1e8, "b, viscous friction"},
+                         {"coulomb_nm", "N m", 0, 0, 1e8, "c, Coulomb friction"},
                          {"smoothing_radps", "rad/s", 0.01, 1e-6, 1, "w_s, width of the step at w = 0"}},
           .example = {"swing_pivot_friction", "", {{"coulomb_nm", 0.02}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
