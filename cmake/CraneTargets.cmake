@@ -50,19 +50,18 @@ function(crane_executable name)
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK})
 endfunction()
 
-# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE | BUSY] | LOOP])
+# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE] | LOOP])
 # GoogleTest program; each TEST becomes one CTest test. SERIAL: the tests of this program run one after the other (real time, real
 # DDS), beside tests of other programs, each of which has DDS domains of its own. The program with the longest TIMEOUT begins first,
-# because its tests form the longest chain. BUSY: these tests also load a processor, as floods do, and count as two programs. ALONE:
-# no other test runs at the same time, because these tests require that the loop loses no tick or that a handshake of DDS Security
-# ends in time. SERIAL tests have the main() of tests/real_time, where a failure is final unless a bare timer proves that the
-# computer paused. All other programs carry the label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP:
-# tests of code that runs while a crane moves; they carry the label "unit-loop" (CTest discovers tests with one label only) and are
-# built by loop_tests, too.
+# because its tests form the longest chain. ALONE: no other test runs at the same time, because these tests require that the loop
+# loses no tick or that a handshake of DDS Security ends in time. SERIAL tests have the main() of tests/real_time, where a failure is
+# final unless a bare timer proves that the computer paused. All other programs carry the label "unit", unless LABELS are given, and
+# are built by the target unit_tests. LOOP: tests of code that runs while a crane moves; they carry the label "unit-loop" (CTest
+# discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
-  cmake_parse_arguments(ARG "SERIAL;ALONE;BUSY;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;ALONE;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
@@ -80,8 +79,6 @@ function(crane_test name)
     set(properties RESOURCE_LOCK ${name} COST ${ARG_TIMEOUT})
     if(ARG_ALONE)
       set(properties RUN_SERIAL TRUE)
-    elseif(ARG_BUSY)
-      list(APPEND properties PROCESSORS 2)
     endif()
   else()
     set(properties "")
