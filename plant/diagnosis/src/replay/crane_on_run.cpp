@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/stepper/friction_step.hpp"
 #include "data/grid.hpp"
 #include "replay/standstill.hpp"
 
@@ -199,6 +200,9 @@ void Replay::CraneOnRun::simulate_inner_coordinates() {
       integrator.step(at);
     });
     integrator.prescribe(measured_at(row + 1));
+    // A coordinate that has diverged begins again at rest, so that all values remain finite: the fit is poor.
+    for (plant::Inner& coordinate : integrator.inner)
+      if (!(std::abs(coordinate.rate) < stepper::kDivergedSpeed)) coordinate = {};
     if (!correcting) continue;
     model.correct(integrator.state, impacts_after(row, usual), inner_at.back(), integrator.inner);
   }
