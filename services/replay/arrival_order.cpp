@@ -4,28 +4,14 @@
 #include <limits>
 #include <utility>
 
-#include "replay/lost_jog.hpp"
-
 namespace crane::replay {
 namespace {
 
 /// Ticks by which samples of one tick may arrive later than the state of a later tick: the history of a loop
 /// topic.
 constexpr std::uint64_t kLate_ticks = 128;
-/// Time from the publication of a sample of crane/jog until the supervisor has certainly received it.
-constexpr std::int64_t kArrival_ns = 1'000'000;
 constexpr auto kBegin_ns = std::numeric_limits<std::int64_t>::min();
 constexpr auto kEnd_ns = std::numeric_limits<std::int64_t>::max();
-
-/// The status shows this deflection of the stick. In maintenance, the supervisor reduces it.
-bool shows(const msg::SupervisorStatus& status, const msg::Jog& jog) {
-  for (std::size_t i = 0; i < std::size(jog.deflection); ++i) {
-    const double sent = jog.engaged ? jog.deflection[i] : 0, shown = status.jog_deflection[i];
-    const bool same = status.mode == crane_MODE_MAINTENANCE ? (sent == 0) == (shown == 0) : sent == shown;
-    if (!same) return false;
-  }
-  return true;
-}
 
 /// After ticks without samples: the reference follows from the state of one of these ticks, or the bridge
 /// applies the command of one of them. Then the recorder has missed samples.
@@ -44,26 +30,25 @@ bool answers_unknown_state(const RecordedTick& tick, std::uint64_t last_known) {
 ArrivalOrder::ArrivalOrder(recording::McapReader& reader) : reader_{reader} {
   recording::Selection selection;
   for (const auto* topic :
-       {&topics::accepted_request.description, &topics::jog.description, &topics::node.description})
+       {&topics::accepted_request.description, &topics::accepted_jog.description, &topics::node.description})
     selection.topics.emplace_back(topic->name);
   reader_.for_each(selection, [this](const recording::Message& message) {
     note(message);
     return true;
   });
-  std::ranges::stable_sort(jogs_, {}, &Jog::sent_ns);
 }
 
 void ArrivalOrder::note(const recording::Message& message) {
   const auto& topic = message.channel->topic;
-  Cdr cdr{message.data.begin(), message.data.end()};
   if (topic == topics::accepted_request.description.name) {
-    const auto accepted = decoded(topics::accepted_request, cdr);
+    const auto accepted = decoded(topics::accepted_request, message.data);
     if (accepted && accepted->header.source == crane_SOURCE_SUPERVISOR)
       accepted_[accepted->header.tick].push_back({message.publish_time_ns, accepted->request});
-  } else if (topic == topics::jog.description.name) {
-    if (const auto jog = decoded(topics::jog, cdr))
-      jogs_.push_back({message.publish_time_ns, *jog, std::move(cdr)});
-  } else if (const auto node = decoded(topics::node, cdr); node && controller_.empty()) {
+  } else if (topic == topics::accepted_jog.description.name) {
+    const auto accepted = decoded(topics::accepted_jog, message.data);
+    if (accepted && accepted->header.source == crane_SOURCE_SUPERVISOR)
+      jogs_[accepted->header.tick].push_back(accepted->jog);
+  } else if (const auto node = decoded(topics::node, message.data); node && controller_.empty()) {
     controller_ = node->controller;
   }
 }
@@ -75,9 +60,6 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   before_.reset();
   last_state_.reset();
   missing_demand_ = 0;
-  derived_.clear();
-  next_jog_ = lost_jogs_of_ = session_epoch_ = 0;
-  lost_jog_.reset();
   assumed_ = 0;
   has_earlier_ = false;
   bool begins = true;
@@ -169,8 +151,7 @@ void ArrivalOrder::complete(Gathered& gathered) {
   const auto decided_ns = tick.published_ns.at(topics::supervisor.description.name);
   const bool last = gathered.more_statuses.empty();
   add_requests(tick.number, {kBegin_ns, last ? kEnd_ns : decided_ns}, tick.inputs);
-  add_jogs(tick, *status, decided_ns);
-  add_lost_jog(tick, *status);
+  add_jogs(tick);
   before_ = status;
   add_steps_without_state(gathered);
   missing_demand_ = before_->missing_demand_count;
@@ -227,49 +208,16 @@ void ArrivalOrder::add_requests(std::uint64_t tick, const Between& times, std::v
   if (accepted == accepted_.end()) return;
   for (const auto& [sent_ns, request] : accepted->second) {
     if (sent_ns <= times.after_ns || sent_ns > times.until_ns) continue;
-    if (request.kind == crane_REQUEST_JOG) session_epoch_ = request.header.epoch;
     inputs.push_back({&topics::request.description, published(topics::request, request)});
   }
 }
 
-/// The supervisor has received the samples that were published kArrival_ns before its decision. Its status
-/// shows whether it has also received those after them.
-void ArrivalOrder::add_jogs(RecordedTick& tick, const msg::SupervisorStatus& status,
-                            std::int64_t decided_ns) {
-  const auto deliver_until = [&](std::size_t end) {
-    for (; next_jog_ < end; ++next_jog_)
-      tick.inputs.push_back({&topics::jog.description, jogs_[next_jog_].cdr});
-  };
-  const auto sent_until = [&](std::int64_t time_ns) {
-    return static_cast<std::size_t>(std::ranges::upper_bound(jogs_, time_ns, {}, &Jog::sent_ns) -
-                                    jogs_.begin());
-  };
-  deliver_until(sent_until(decided_ns - kArrival_ns));
-  const auto possible = sent_until(decided_ns);
-  if (next_jog_ > 0 && shows(status, jogs_[next_jog_ - 1].sample)) return;
-  for (auto end = next_jog_ + 1; end <= possible; ++end)
-    if (shows(status, jogs_[end - 1].sample)) return deliver_until(end);
-}
-
-std::vector<ArrivalOrder::Jog>::const_iterator ArrivalOrder::first_jog_of(std::uint64_t request_id) const {
-  return std::ranges::find_if(jogs_, [&](const Jog& one) { return one.sample.request_id == request_id; });
-}
-
-/// The recorder discovers the writer of an operator later than the supervisor does, or not before its program
-/// ends. Until then, the supervisor receives a sample in every tick in which its status shows a deflection.
-/// The program releases the stick when it ends.
-void ArrivalOrder::add_lost_jog(RecordedTick& tick, const msg::SupervisorStatus& status) {
-  auto lost = jog_behind(status, session_epoch_);
-  if (!lost && lost_jog_) lost = released(*lost_jog_, status);
-  if (!lost) return;
-  const auto first = first_jog_of(lost->request_id);
-  lost_jog_.reset();
-  if (first - jogs_.begin() < static_cast<std::ptrdiff_t>(next_jog_)) return;  // a sample has been delivered
-  tick.inputs.push_back({&topics::jog.description, published(topics::jog, *lost)});
-  if (lost->engaged) lost_jog_ = *lost;
-  if (std::exchange(lost_jogs_of_, lost->request_id) != lost->request_id)
-    derived_.push_back("tick " + std::to_string(tick.number) + ": first samples of crane/jog of client '" +
-                       lost->client + "'");
+/// Only a step with a state takes samples of the stick.
+void ArrivalOrder::add_jogs(RecordedTick& tick) const {
+  const auto jogs = jogs_.find(tick.number);
+  if (jogs == jogs_.end()) return;
+  for (const auto& jog : jogs->second)
+    tick.inputs.push_back({&topics::jog.description, published(topics::jog, jog)});
 }
 
 }  // namespace crane::replay

@@ -20,6 +20,11 @@ bool is_input(const topics::Description& topic) {
   return topic.name == topics::request.description.name || topic.name == topics::jog.description.name;
 }
 
+bool has_channel(const recording::McapReader& reader, const topics::Description& topic) {
+  return std::ranges::any_of(reader.channels(),
+                             [&](const auto& channel) { return channel.topic == topic.name; });
+}
+
 recording::Metadata origin_of(recording::McapReader& reader) {
   for (auto& record : reader.metadata())
     if (record.name == "crane") return record.entries;
@@ -47,13 +52,12 @@ RecordedRun::RecordedRun(const std::filesystem::path& file)
            std::to_string(crane_MESSAGES_VERSION));
   // A recording of `crane run` states the clock and the controller, one of a recorder does not.
   if (problems.empty() && !origin_.contains("clock")) arrivals_.emplace(reader_);
-  const auto records_requests = std::ranges::any_of(reader_.channels(), [](const auto& channel) {
-    return channel.topic == topics::accepted_request.description.name;
-  });
-  if (arrivals_ && !records_requests)
-    refuse(std::string{topics::accepted_request.description.name} +
-           ": no such topic; the programs that made the recording did not publish the requests that the "
-           "supervisor accepted. Replay the recording with these programs");
+  if (arrivals_)
+    for (const auto* topic : {&topics::accepted_request.description, &topics::accepted_jog.description})
+      if (!has_channel(reader_, *topic))
+        refuse(std::string{topic->name} +
+               ": no such topic; the programs that made the recording did not publish what the supervisor "
+               "accepted. Replay the recording with these programs");
   const auto attachments = reader_.attachments();
   const auto rig = std::ranges::find(attachments, "rig.toml", &recording::AttachmentRecord::name);
   if (rig == attachments.end()) {

@@ -43,10 +43,6 @@ class RecordedRun {
   void for_each(const std::function<bool(const RecordedTick&)>& visit);
   /// As ArrivalOrder::assumed_ticks(); after for_each().
   [[nodiscard]] std::uint64_t assumed_ticks() const { return arrivals_ ? arrivals_->assumed_ticks() : 0; }
-  /// As ArrivalOrder::derived(); after for_each().
-  [[nodiscard]] std::vector<std::string> derived_jogs() const {
-    return arrivals_ ? arrivals_->derived() : std::vector<std::string>{};
-  }
   /// Damage found so far (McapReader::problems()).
   [[nodiscard]] const std::vector<std::string>& problems() const { return reader_.problems(); }
 

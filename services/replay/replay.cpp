@@ -35,7 +35,6 @@ class Comparison {
     result_.decided_by_outputs = stack_.decided_by_outputs();
     result_.equal_ticks = next_ - begin_;
     result_.assumed_ticks = run_.assumed_ticks();
-    result_.derived_jogs = run_.derived_jogs();
     result_.problems = run_.problems();
     result_.origin = run_.origin();
     return result_;

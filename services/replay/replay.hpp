@@ -34,7 +34,6 @@ struct Result {
   std::uint64_t skipped_ticks = 0;        ///< ticks without a state, because the bridge was late
   std::uint64_t steps_without_state = 0;  ///< of the supervisor
   std::uint64_t decided_by_outputs = 0;   ///< as ReplayedStack::decided_by_outputs()
-  std::vector<std::string> derived_jogs;  ///< as RecordedRun::derived_jogs()
   std::vector<std::string>
       problems;                /// damage of the recording; the replay ends before the first damaged tick
   recording::Metadata origin;  ///< of the recording: rig, controller, scenario, version ...

@@ -2,14 +2,20 @@
 
 namespace crane::supervisor {
 
-void JogReader::take(std::uint64_t tick, double now_s) {
+void JogReader::take(const msg::Header& step, double now_s) {
   constexpr int kMostPerTick = 64;
   bus::SampleInfo info;
   for (int taken = 0; taken < kMostPerTick; ++taken) {
     const auto sample = samples_.take(&info);
     if (!sample) return;
     if (!info.valid || !topics::may_write(topics::jog.description, sample->header.source)) continue;
-    const auto verdict = session_.take(*sample, {info.participant, info.writer}, tick, now_s);
+    const auto verdict = session_.take(*sample, {info.participant, info.writer}, step.tick, now_s);
+    if (verdict == JogSession::Verdict::acts || verdict == JogSession::Verdict::released) {
+      msg::AcceptedJog accepted{};
+      accepted.header = step;
+      accepted.jog = *sample;
+      accepted_.publish(accepted);
+    }
     if (verdict == JogSession::Verdict::stranger && !stranger_reported_) {
       stranger_reported_ = true;
       node_.warning("jog_stranger",

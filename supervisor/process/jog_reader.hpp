@@ -1,5 +1,6 @@
 #pragma once
-/// Reads crane/jog for the session of the stick, and reports samples that have no effect.
+/// Reads crane/jog for the session of the stick, publishes the samples of the session on crane/accepted_jog,
+/// and reports samples that have no effect.
 #include "crane/runtime/component.hpp"
 #include "crane/runtime/node.hpp"
 #include "process/jog_session.hpp"
@@ -9,11 +10,15 @@ namespace crane::supervisor {
 class JogReader {
  public:
   explicit JogReader(const runtime::Context& context)
-      : samples_{context.ports.input(topics::jog)}, session_{context.rig.period_s}, node_{context.node} {}
+      : samples_{context.ports.input(topics::jog)},
+        accepted_{context.ports.output(topics::accepted_jog)},
+        session_{context.rig.period_s},
+        node_{context.node} {}
 
   /// Takes a bounded number of samples: a flood must not delay the step. An event names the first sample of a
   /// stranger, and the first unusable sample, of each session.
-  void take(std::uint64_t tick, double now_s);
+  /// @param step  header of the step that takes the samples
+  void take(const msg::Header& step, double now_s);
   /// A move has been accepted: a session begins, or ends because the move replaces it.
   /// @param sender  participant that sent the request
   void accepted(const msg::Request& request, const bus::ParticipantId& sender, double now_s);
@@ -24,6 +29,7 @@ class JogReader {
 
  private:
   bus::Subscriber<msg::Jog> samples_;
+  runtime::Output<msg::AcceptedJog> accepted_;
   JogSession session_;
   runtime::Node& node_;
   bool stranger_reported_ = false, unusable_reported_ = false;

@@ -83,7 +83,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
     }
-    jogs_.take(tick, input.now_s);
+    jogs_.take(last_header_, input.now_s);
     input.reference_moving = is_moving(reference) || jogs_.session().active(input.now_s);
     input.second_writer =
         (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
@@ -295,7 +295,8 @@ runtime::ComponentSpec supervisor_spec() {
                     {&topics::node.description, "start-up number, process id and age of another supervisor"}},
           .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
                      {&topics::supervisor.description, "safety state, and the move that was accepted"},
-                     {&topics::accepted_request.description, "requests that were accepted, for recordings"},
+                     {&topics::accepted_request.description, "accepted requests, for recordings"},
+                     {&topics::accepted_jog.description, "accepted samples of the stick, for recordings"},
                      {&topics::reply.description, "answers to requests"}},
           .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
             return std::make_unique<Supervisor>(context);

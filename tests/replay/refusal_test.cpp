@@ -52,7 +52,7 @@ TEST_F(RefusedRecording, OfARecorderWithoutRigFileAndController) {
   EXPECT_NE(reason.find("controller: missing"), std::string::npos) << "all reasons at once: " << reason;
 }
 
-TEST_F(RefusedRecording, OfProgramsThatDidNotPublishTheAcceptedRequests) {
+TEST_F(RefusedRecording, OfProgramsThatDidNotPublishWhatTheSupervisorAccepted) {
   const auto file = directory_ / "earlier.mcap";
   recording::McapWriter writer{file};
   const auto& node = topics::node.description;
@@ -61,6 +61,7 @@ TEST_F(RefusedRecording, OfProgramsThatDidNotPublishTheAcceptedRequests) {
   writer.close();
   const auto reason = reason_of(file);
   EXPECT_NE(reason.find("crane/accepted_request: no such topic"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("crane/accepted_jog: no such topic"), std::string::npos) << reason;
 }
 
 TEST_F(RefusedRecording, WithAnUnknownController) {

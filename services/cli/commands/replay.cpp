@@ -48,7 +48,6 @@ nlohmann::ordered_json to_json(const replay::Result& found) {
   json["skipped_ticks"] = found.skipped_ticks;
   json["steps_without_state"] = found.steps_without_state;
   json["decided_by_outputs"] = found.decided_by_outputs;
-  json["derived_jogs"] = found.derived_jogs;
   json["problems"] = found.problems;
   return json;
 }
@@ -79,8 +78,6 @@ void print_remarks(const replay::Result& found) {
               << found.steps_without_state << " steps of the supervisor without a state; "
               << found.decided_by_outputs << " ticks in which the recorded outputs decided\n";
   if (found.skipped_ticks > 0) std::cerr << "the bridge skipped " << found.skipped_ticks << " ticks\n";
-  for (const auto& jog : found.derived_jogs)
-    std::cerr << "not in the recording, derived from crane/supervisor: " << jog << '\n';
 }
 
 int compare(const ReplayOptions& options) {
