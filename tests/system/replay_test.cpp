@@ -45,14 +45,19 @@ class RecordedVendor : public testing::TestWithParam<const char*> {
     up.send(SIGINT);
     ASSERT_EQ(up.wait(20s), 0) << up.errors();
   }
-  void expect_equal(const Arguments& how) {
+  /// @return the result as JSON; null when the replay failed
+  nlohmann::json equal_replay(const Arguments& how) {
     const auto ended = run_program(kCrane, joined({"replay", file_, "--json"}, how));
     SCOPED_TRACE(ended.errors + ended.output);
-    ASSERT_EQ(ended.exit_code, 0);
-    const auto json = nlohmann::json::parse(ended.output);
+    EXPECT_EQ(ended.exit_code, 0);
+    if (ended.exit_code != 0) return nullptr;
+    auto json = nlohmann::json::parse(ended.output);
     EXPECT_TRUE(json.at("equal"));
-    EXPECT_FALSE(json.contains("ends"));
-    EXPECT_GT(json.at("equal_ticks"), 600) << "the start and a move take more than 6 s";
+    return json;
+  }
+  static void expect_whole(const nlohmann::json& result) {
+    EXPECT_FALSE(result.contains("ends")) << result.dump();
+    EXPECT_GT(result.at("equal_ticks"), 600) << "the start and a move take more than 6 s";
   }
   recording::TemporaryDirectory directory_;
   std::string file_ = (directory_ / "run.mcap").string();
@@ -60,16 +65,29 @@ class RecordedVendor : public testing::TestWithParam<const char*> {
 
 TEST_P(RecordedVendor, IsReplayedInOneProcessAndAsProcessesOfBothVendors) {
   ASSERT_NO_FATAL_FAILURE(record());
-  expect_equal({});
-  for (const char* vendor : {"cyclone", "fastdds"})
-    expect_equal({"--processes", "--domain", std::to_string(kDomain), "--dds", vendor});
+  const auto in_one_process = equal_replay({});
+  ASSERT_FALSE(in_one_process.is_null());
+  expect_whole(in_one_process);
+  for (const char* vendor : {"cyclone", "fastdds"}) {
+    SCOPED_TRACE(vendor);
+    const auto as_processes =
+        equal_replay({"--processes", "--domain", std::to_string(kDomain), "--dds", vendor});
+    ASSERT_FALSE(as_processes.is_null());
+    // A replay as processes ends where a recorded process was late, and names the tick.
+    if (!as_processes.contains("ends"))
+      expect_whole(as_processes);
+    else
+      EXPECT_GT(in_one_process.at("irregular_ticks"), 0) << as_processes.at("ends");
+  }
 }
 
 /// The ramp of a stop begins after a time of rest on the local clock of the supervisor. A replay knows the
 /// sample times only; under load, its ramp may begin one tick later.
 TEST_P(RecordedVendor, KnownShortcomingUnderLoadIsReplayedThroughTheRampOfAStop) {
   ASSERT_NO_FATAL_FAILURE(record({"stop"}));
-  expect_equal({});
+  const auto result = equal_replay({});
+  ASSERT_FALSE(result.is_null());
+  expect_whole(result);
 }
 
 INSTANTIATE_TEST_SUITE_P(Replay, RecordedVendor, testing::Values("cyclone", "fastdds"),
