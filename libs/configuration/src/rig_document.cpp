@@ -71,6 +71,13 @@ std::string unit_text(const Field<Section>& field) {
   return std::string{field.unit.empty() ? kOfMetres[static_cast<std::size_t>(field.quantity)] : field.unit};
 }
 
+/// A text as the cell of a table: a bar would end the cell.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string{"\\|"} : std::string{c};
+  return escaped;
+}
+
 /// This function is not inlined, because GCC 12 would otherwise warn about reads beyond the end of small
 /// sections.
 template <class Section, std::size_t N>
@@ -83,7 +90,7 @@ template <class Section, std::size_t N>
                        : !field.default_text.empty() ? std::string{field.default_text}
                                                      : preset;
     text += "| `" + key_of(field, "m") + "` | " + unit_text(field) + " | " + range + " | " + shown + " | " +
-            std::string{field.meaning} + " |\n";
+            cell(field.meaning) + " |\n";
   }
   return text;
 }
