@@ -23,7 +23,7 @@ struct Announced {
 [[nodiscard]] std::optional<bus::Announcement> announcement_in(std::span<const std::uint8_t> datagram);
 
 /// Listens in all domains on the interfaces with these addresses; returns each participant once. Participants
-/// with unicast discovery (loop-back, --peer) are not found.
+/// with unicast discovery (loop-back, --peer, --discovery-server) are not found.
 [[nodiscard]] std::vector<Announced> listen_for_announcements(const std::vector<std::string>& addresses,
                                                               std::chrono::milliseconds duration);
 

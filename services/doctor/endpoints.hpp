@@ -7,8 +7,9 @@
 
 namespace crane::doctor {
 
-/// Checks the endpoints that have the name of a topic of this project: their type, and the quality of service
-/// of writers against the readers of this project and of readers against the writers that were found.
+/// Checks the endpoints that have the name of a topic of this project: the type of each, the quality of
+/// service of a writer against the readers of this project, and that of a reader against the writers that
+/// were found.
 /// @param endpoints  of the crane
 [[nodiscard]] Findings judge_endpoints(const std::vector<bus::FoundEndpoint>& endpoints);
 

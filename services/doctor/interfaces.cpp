@@ -104,7 +104,7 @@ Finding multicast_finding(const Interface& interface, Multicast result) {
     case Multicast::send_refused:
       return {Grade::problem, "net", "multicast_refused", "the kernel refuses multicast" + where,
               "`ip link set " + interface.name +
-                  " multicast on` and look for a route of 239.255.0.1 (`ip route get "
+                  " multicast on` and check the route of 239.255.0.1 (`ip route get "
                   "239.255.0.1`), " +
                   peers};
     case Multicast::not_heard:

@@ -147,13 +147,13 @@ Findings judge_processes_on_bus(const Observed& observed) {
     if (node.phase == crane_PHASE_STARTING)
       findings.push_back({Grade::problem, "net", "process_starting",
                           name + " waits for a counterpart: a reader or a writer of its topics is missing",
-                          "see which process is missing with `crane graph` and `crane status`"});
+                          "`crane graph` and `crane status` show which process is missing"});
     if (node.lost_ticks > 0)
       findings.push_back({Grade::advice, "net", "ticks_lost",
                           name + " has lost " + std::to_string(node.lost_ticks) + " of " +
                               std::to_string(node.ticks) + " ticks",
-                          "look with `crane doctor --rt` whether this computer is late"});
-    // a status is up to 1 s old, and twin and recorder have no real-time priority
+                          "run `crane doctor --rt`: it checks whether the timer of this computer is late"});
+    // A status is up to 1 s old. Twin and recorder have no real-time priority.
     constexpr double kClocks_s = 2.5;
     if (const auto offset = observed.clock_offset_s.find(name);
         offset != observed.clock_offset_s.end() && std::abs(offset->second) > kClocks_s)
@@ -190,7 +190,7 @@ Findings judge_mismatches(const Observed& observed) {
     for (const auto& [topic, count] : observed.rejected)
       findings.push_back({Grade::problem, "net", "samples_rejected",
                           std::to_string(count) + " samples of " + topic + " had a wrong CRC",
-                          "end the program that is not of this release, or look at the network"});
+                          "end the program of another release, or check the network"});
   return findings;
 }
 
@@ -201,7 +201,7 @@ Findings judge_number_of_participants(const std::vector<LocalProcess>& local, st
   return {{Grade::problem, "net", "too_many_participants",
            std::to_string(count) + " programs of cranes run in domain " + std::to_string(domain) +
                " of this computer, which has ports for " + std::to_string(kMost),
-           "end the programs that are left over (`pgrep -a crane`), start cranes with --in-process, or give "
+           "end programs of earlier stacks (`pgrep -a crane`), start cranes with --in-process, or give "
            "them other domains (--domain)"}};
 }
 

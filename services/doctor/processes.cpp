@@ -105,7 +105,7 @@ Finding runs_twice(const std::string& program, const std::vector<int>& pids, con
   return {Grade::problem, "net", "process_twice",
           program + " runs twice for crane '" + crane + "' in domain " + std::to_string(domain) +
               ": processes " + all,
-          "end the process that is left over from an earlier stack with `kill PID`"};
+          "end the process of the earlier stack with `kill PID`"};
 }
 
 }  // namespace

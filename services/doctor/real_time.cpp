@@ -92,9 +92,9 @@ Findings judge_buffers(const Buffers& buffers) {
   if (buffers.lost > 0)
     findings.push_back({Grade::advice, "rt", "datagrams_lost",
                         std::to_string(buffers.lost) + " datagrams found a full receive buffer (" +
-                            std::to_string(buffers.received) + " were received) since this network is up",
-                        "look with `crane topic hz crane/state` whether the crane loses samples; raise "
-                        "net.core.rmem_max, or take load from this computer"});
+                            std::to_string(buffers.received) + " were received) since this network exists",
+                        "check with `crane topic hz crane/state` whether the crane loses samples; raise "
+                        "net.core.rmem_max, or end other programs of this computer"});
   if (findings.empty())
     findings.push_back(
         {Grade::good, "rt", "receive_buffers",
