@@ -45,7 +45,7 @@ void limit_rate(const Limits& limits, GateMemory& memory, PerAxis& volts_v, Gate
   if (memory.rate_pressure >= rate_pressure_limit(limits)) output.cause = Cause::demand_rate;
 }
 
-// No usable demand in this tick: hold the last output for a limited time.
+/// Without a usable demand in this tick, holds the last output for a limited time.
 void judge_freshness(const Limits& limits, GateMemory& memory, GateOutput& output) noexcept {
   output.stale = memory.missing_in_row >= limits.demand_stale_after_ticks;
   if (memory.invalid_in_row >= limits.demand_invalid_in_row) {

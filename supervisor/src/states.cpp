@@ -19,11 +19,12 @@ struct FailureEntry {
 // In the order of the enumeration.
 constexpr std::array<FailureEntry, kHomingFailures> kFailures{{
     {"NONE", ""},
-    {"MARK_NOT_FOUND", "the axis crept its whole travel without its mark: check switch and counts per unit"},
-    {"MARK_STUCK", "the mark's switch does not open when the axis leaves it: check switch and wiring"},
-    {"OTHER_SWITCH", "the limit switch of the other end was reached: check mark, signs and wiring"},
-    {"NO_MOTION", "the axis does not follow: check encoder, brake and drive"},
-    {"MARK_DISAGREES", "the mark was seen at two places: check coupling, encoder and switch"},
+    {"MARK_NOT_FOUND",
+     "the axis moved over its whole travel and did not find its mark: check switch and counts per unit"},
+    {"MARK_STUCK", "the switch of the mark does not open when the axis backs off: check switch and wiring"},
+    {"OTHER_SWITCH", "the axis reached the limit switch of the other end: check mark, signs and wiring"},
+    {"NO_MOTION", "the axis does not follow its reference: check encoder, brake and drive"},
+    {"MARK_DISAGREES", "the two detections of the mark differ: check coupling, encoder and switch"},
 }};
 
 }  // namespace

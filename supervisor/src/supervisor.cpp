@@ -35,7 +35,7 @@ void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& 
   memory.overruns_in_row = 0;
 }
 
-// @return true when a usable sample has arrived in this tick
+/// @return true when a usable sample has arrived in this tick
 bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memory) {
   if (!input.state_arrived || !all_finite(input.sample)) {
     memory.state_missing_in_row = std::min(memory.state_missing_in_row + 1, kCounterEnd);
@@ -130,7 +130,7 @@ EnvelopeInput measured_now(const Limits& limits, const TickInput& input, const T
           .unknown = unknown_axes(limits, memory)};
 }
 
-// Until the self-test has passed, the stored position of the brakes follows the axes.
+/// Until the self-test has passed, the position that the closed brakes must hold is set again in every tick.
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
