@@ -1,6 +1,7 @@
 #pragma once
-/// A recorded run: what the stack received and published in each tick, and how the stack was made. `crane
-/// run` writes the samples in the order of the ticks; a recorder writes them in the order of their arrival.
+/// A recorded run: what the stack received and published in each tick, its rig file and its controller.
+/// `crane run` writes the samples in the order of the ticks; a recorder writes them in the order of their
+/// arrival.
 #include <cstdint>
 #include <filesystem>
 #include <functional>

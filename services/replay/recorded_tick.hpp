@@ -35,7 +35,7 @@ struct RecordedTick {
   std::vector<StepWithoutState> without_state{};  ///< after the step of this tick
   bool begins = false;      ///< the stack began with this tick; its processes were not there before
   bool assumed = false;     ///< not recorded: the crane rested as in the first recorded tick
-  std::string irregular{};  ///< not empty: what only a stack can repeat that steps as `steps` states
+  std::string irregular{};  ///< not empty: what a stack in lockstep cannot repeat; a prescribed stack can
   std::string ends{};       ///< not empty: why a replay cannot repeat this tick and those after it
   [[nodiscard]] const Cdr* find(const topics::Description& topic) const {
     const auto found = samples.find(topic.name);

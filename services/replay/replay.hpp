@@ -1,7 +1,7 @@
 #pragma once
 /// Replays a recording in lockstep: the components of the stack receive the recorded samples of clock master
-/// and operators, and everything they publish must equal the recording, bit for bit. The start-up numbers of
-/// the processes in a recording of the recorder are random and are not compared.
+/// and operators, and everything that the components publish must equal the recording, bit for bit. The
+/// start-up numbers of the processes in a recording of the recorder are random and are not compared.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,7 +35,7 @@ struct Result {
   std::uint64_t steps_without_state = 0;  ///< of the supervisor
   std::uint64_t decided_by_outputs = 0;   ///< as ReplayedStack::decided_by_outputs()
   std::vector<std::string>
-      problems;                /// damage of the recording; the replay ends before the first damaged tick
+      problems;                ///< damage of the recording; the replay ends before the first damaged tick
   recording::Metadata origin;  ///< of the recording: rig, controller, scenario, version ...
 };
 

@@ -25,7 +25,7 @@ class ReplayedStack {
   [[nodiscard]] virtual bool is_prescribed() const { return false; }
   /// Ticks in which the recorded outputs decided whether a component had an input.
   [[nodiscard]] virtual std::uint64_t decided_by_outputs() const { return 0; }
-  /// False: the outputs no longer decide, because too many ticks needed it.
+  /// False: the recorded outputs no longer decide, because too many ticks required such a decision.
   [[nodiscard]] virtual bool decides_by_outputs() const { return false; }
   /// Further samples of a tick, published since the call of receive(): those of steps without a state.
   [[nodiscard]] virtual const std::vector<Received>& repeated() const {

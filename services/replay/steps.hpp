@@ -1,7 +1,8 @@
 #pragma once
 /// Which component stepped at a recorded tick, and with which inputs. In real time, a component steps without
-/// an input that arrives too late, or does not step at all. The samples of the tick and of the next one show
-/// this. A sample that a later sample presupposes was published: the recorder did not receive it.
+/// an input that arrives too late, or does not step at all. The samples of the tick and of the next tick show
+/// which of these happened. A sample that a later sample presupposes was published: the recorder did not
+/// receive it.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ struct Steps {
   bool planner = true;  ///< published the reference of the next tick
   bool planner_has_status = true;
   /// True: the status was published before the reference, but so late that the planner may have ended its
-  /// wait without it. The reference shows which of both happened.
+  /// wait without it. The reference shows whether it had the status.
   bool planner_may_lack_status = false;
   bool tracking = true, anti_swing = true, friction = true;
   bool supervisor = true;
