@@ -69,7 +69,7 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
     auto first = ticks_.extract(ticks_.begin());
     auto& tick = first.mapped().tick;
     // The processes discover the bridge one after the other; the supervisor completes the stack.
-    if (begins && tick.find(topics::supervisor.description) == nullptr) {
+    if (begins && !has_supervisor_stepped(tick, after(tick.number))) {
       has_earlier_ = has_earlier_ || tick.find(topics::state.description) != nullptr;
       return;
     }
@@ -98,7 +98,8 @@ bool ArrivalOrder::begin(RecordedTick& first, const std::function<bool(const Rec
   constexpr std::uint64_t kMost_ticks = 100;
   const auto* cdr = first.find(topics::state.description);
   auto state = cdr == nullptr ? std::nullopt : decoded(topics::state, *cdr);
-  const bool starts = before_ && before_->state <= crane_STATE_SELFTEST;
+  const auto status = before_ ? before_ : next_status();
+  const bool starts = status && status->state <= crane_STATE_SELFTEST;
   if (!state || !starts || first.number > kMost_ticks) return true;
   const auto time_ns = state->header.sample_time_ns;
   const auto* reference = first.find(topics::reference.description);
@@ -115,6 +116,19 @@ bool ArrivalOrder::begin(RecordedTick& first, const std::function<bool(const Rec
     if (!visit(assumed)) return false;
   }
   return true;
+}
+
+const RecordedTick* ArrivalOrder::after(std::uint64_t number) const {
+  const auto found = ticks_.find(number + 1);
+  return found == ticks_.end() ? nullptr : &found->second.tick;
+}
+
+/// A reader of another vendor may not receive the first sample of the supervisor.
+std::optional<msg::SupervisorStatus> ArrivalOrder::next_status() const {
+  for (const auto& [number, gathered] : ticks_)
+    if (const auto* cdr = gathered.tick.find(topics::supervisor.description))
+      return decoded(topics::supervisor, *cdr);
+  return std::nullopt;
 }
 
 void ArrivalOrder::gather(const recording::Message& message, const topics::Description& topic) {
@@ -173,8 +187,7 @@ void ArrivalOrder::describe(RecordedTick& tick) {
   if (last_state_ && tick.number > *last_state_ + 1 && answers_unknown_state(tick, *last_state_))
     tick.ends = "the recorder did not receive the samples of the tick before";
   last_state_ = tick.number;
-  const auto found = ticks_.find(tick.number + 1);
-  const auto* next = found == ticks_.end() ? nullptr : &found->second.tick;
+  const auto* next = after(tick.number);
   tick.steps = steps_of(tick, next, period_ns_, missing_demand_);
   if (next != nullptr)
     if (const auto* reference = next->find(topics::reference.description)) tick.next_reference = *reference;

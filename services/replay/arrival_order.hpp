@@ -45,6 +45,8 @@ class ArrivalOrder {
   void gather(const recording::Message& message, const topics::Description& topic);
   void complete(Gathered& gathered);
   void describe(RecordedTick& tick);
+  [[nodiscard]] const RecordedTick* after(std::uint64_t number) const;  ///< null: not recorded
+  [[nodiscard]] std::optional<msg::SupervisorStatus> next_status() const;
   void add_steps_without_state(Gathered& gathered);
   /// Decides how the stack began: with the first complete tick, or before the recorder did. In the second
   /// case, visits the ticks before the first recorded one.

@@ -68,7 +68,7 @@ void decide_planner(const RecordedTick& tick, const RecordedTick* next, std::int
 void decide_supervisor(const RecordedTick& tick, const RecordedTick* next,
                        std::optional<std::uint64_t> missing_demand, Steps& steps) {
   const auto status = sample_of(topics::supervisor, tick);
-  steps.supervisor = status || has(tick, topics::command.description) || is_applied(tick, next);
+  steps.supervisor = has_supervisor_stepped(tick, next);
   steps.supervisor_has_demand =
       status && missing_demand ? status->missing_demand_count == *missing_demand : steps.friction;
   steps.friction = steps.friction || (steps.supervisor && steps.supervisor_has_demand);
@@ -81,6 +81,11 @@ void decide_supervisor(const RecordedTick& tick, const RecordedTick* next,
 }
 
 }  // namespace
+
+bool has_supervisor_stepped(const RecordedTick& tick, const RecordedTick* next) {
+  return has(tick, topics::supervisor.description) || has(tick, topics::command.description) ||
+         is_applied(tick, next);
+}
 
 Steps steps_of(const RecordedTick& tick, const RecordedTick* next, std::int64_t period_ns,
                std::optional<std::uint64_t> missing_demand) {

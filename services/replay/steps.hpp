@@ -28,6 +28,10 @@ struct Steps {
   std::int64_t supervisor_after_ns = 0;  ///< time from the state to the command; 0: unknown
 };
 
+/// True: the supervisor has stepped, although the recorder may not have received its samples.
+/// @param next  the tick after `tick`; null: not recorded
+[[nodiscard]] bool has_supervisor_stepped(const RecordedTick& tick, const RecordedTick* next);
+
 /// @param next            the tick after `tick`; null: not recorded
 /// @param period_ns       of the ticks
 /// @param missing_demand  SupervisorStatus.missing_demand_count before this tick; nothing: unknown

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <random>
+#include <set>
 
 #include "../recording/temporary_directory.hpp"
 #include "campaign/virtual_stack.hpp"
@@ -63,6 +64,8 @@ class LateStack {
     run(0.01);
     loses_statuses_ = false;
   }
+  /// The recorder misses the first sample of each topic that the supervisor writes.
+  void miss_first_step() { misses_first_step_ = true; }
   /// From now on, the recorder misses what operators publish.
   void miss_operators(bool misses) { misses_operators_ = misses; }
   void close() { writer_.close(); }
@@ -81,6 +84,9 @@ class LateStack {
     const bool by_operator =
         topic.name == topics::request.description.name || topic.name == topics::jog.description.name;
     if (by_operator && misses_operators_) return;
+    const bool by_supervisor =
+        topic.name == topics::command.description.name || topic.name == topics::supervisor.description.name;
+    if (by_supervisor && misses_first_step_ && known_.insert(topic.name).second) return;
     writer_.message(channels_[index], static_cast<std::uint32_t>(tick), now_ns_, now_ns_,
                     replay::encoded(topic, sample));
   }
@@ -95,7 +101,8 @@ class LateStack {
   stack::OperatorClient operator_;
   bus::Publisher<msg::Jog> jogs_;
   std::uint64_t newest_tick_ = 0, last_id_ = 0;
-  bool misses_operators_ = false, loses_statuses_ = false;
+  bool misses_operators_ = false, misses_first_step_ = false, loses_statuses_ = false;
+  std::set<std::string_view> known_;  ///< topics of the supervisor with a sample
 };
 
 struct LateRun {
@@ -184,6 +191,23 @@ void expect_whole(const replay::Result& result) {
 TEST(LostJogs, AtTheBeginningFollowFromTheAcceptedSamples) { expect_whole(with_lost_jogs(30, false)); }
 
 TEST(LostJogs, OfAWholeSessionFollowFromTheAcceptedSamples) { expect_whole(with_lost_jogs(100, true)); }
+
+/// A reader of another vendor may not receive the first sample of a writer. The next state shows that the
+/// command was applied.
+TEST(LostFirstStep, OfTheSupervisorFollowsFromTheAppliedCommand) {
+  const recording::TemporaryDirectory directory;
+  const auto file = directory / "first_step.mcap";
+  LateStack crane{file, "virginia_tech_tower", "gain_scheduling_partial"};
+  crane.miss_first_step();
+  crane.suspend(crane_SOURCE_SUPERVISOR, 0.075);
+  crane.run(1.5);
+  crane.close();
+  const auto result = replay::replay(file, replay::loop_components());
+  EXPECT_FALSE(result.first) << replay::sentence(*result.first);
+  EXPECT_EQ(result.ends, "");
+  EXPECT_GT(result.equal_ticks, 130U);
+  EXPECT_EQ(result.not_recorded, 2U) << "a command and a status";
+}
 
 /// The status of an accepted move was published in time, and the planner did not receive it.
 replay::Result with_lost_statuses(int moves) {
