@@ -15,32 +15,31 @@ struct Rule {
 
 namespace rules {
 
-// Acceptance of an effect (search/compare.cpp).
-inline constexpr Rule kFamilywiseLevel{
-    "familywise_level", 0.05, "1",
-    "probability that the best of all candidates is accepted without an effect",
-    "level of the test, Bonferroni"};
-inline constexpr Rule kSignificant{"significant", 0.01, "1",
-                                   "p value of a score below which it is significant", "level of the test"};
+// Acceptance of a cause (search/compare.cpp).
+inline constexpr Rule kFamilywiseLevel{"familywise_level", 0.05, "1",
+                                       "probability that any candidate without an effect is accepted",
+                                       "level of the test, Bonferroni"};
+inline constexpr Rule kSignificant{"significant", 0.01, "1", "largest p value of a significant score",
+                                   "level of the test"};
 inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
-                                  "minimum reduction of the error of a column by a first effect",
+                                  "minimum reduction of the error of an output by the first cause",
                                   "read off examples"};
 inline constexpr Rule kLeastBeside{
     "least_change_beside", 0.09, "1",
-    "minimum change of an output by one effect / largest change of this output by another effect of the same "
-    "hypothesis",
-    "square root of indistinct: the form of a term deviates from an effect by this share"};
+    "minimum change of an output by a further cause / largest change of this output by another cause of the "
+    "same hypothesis",
+    "square root of indistinct: the form of a term deviates from its effect by this share"};
 
-// Choice among hypotheses with the same number of effects (verdict/judgement.cpp).
+// Choice among hypotheses with the same number of causes (verdict/judgement.cpp, search/compare.cpp).
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
                                 "level of the vote"};
 inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "minimum share of block resamples for a rival",
                                 "level of the vote"};
 inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
                                   "largest difference of deviance between a rival and the best hypothesis / "
-                                  "gain of the best hypothesis over the "
-                                  "base model, at which both count as equal",
-                                  "as pattern: the equations of the terms leave this share of a misfit"};
+                                  "decrease of the deviance from the base model to the best hypothesis, at "
+                                  "which both count as equal",
+                                  "as pattern: the equations of the terms leave this share of the loss"};
 
 // Effects within the accuracy of the rig file (verdict/stated_accuracy.cpp).
 inline constexpr Rule kBeyondAccuracy{
@@ -91,19 +90,19 @@ inline constexpr Rule kPattern{"pattern", 0.008, "1", "minimum share of a patter
                                "read off examples"};
 inline constexpr Rule kPatternLuck{"pattern_luck", 15, "noise variances", "largest pattern of pure noise",
                                    "read off examples"};
-inline constexpr Rule kPatternShare{"pattern_share", 0.04, "1",
-                                    "maximum pattern / total misfit of the base model", "read off examples"};
+inline constexpr Rule kPatternShare{"pattern_share", 0.04, "1", "maximum pattern / loss of the base model",
+                                    "read off examples"};
 inline constexpr Rule kPatternShareOneTerm{"pattern_share_one_term", 0.1, "1",
-                                           "the same for a pattern in the variable of one effect's law",
+                                           "the same for a pattern in the variable of the law of one cause",
                                            "read off examples"};
 inline constexpr Rule kPatternShareSeveralTerms{
     "pattern_share_several_terms", 0.01, "1",
-    "the same for a pattern in the variable of several effects' laws", "read off examples"};
+    "the same for a pattern in the variable of the laws of several causes", "read off examples"};
 inline constexpr Rule kPatternShareOverTime{"pattern_share_over_time", 0.01, "1",
                                             "the same for a pattern over time", "read off examples"};
 inline constexpr Rule kPatternShareOfCause{
     "pattern_share_of_cause", 0.5, "1",
-    "maximum pattern / part of the misfit that one named cause explains on its axis", "read off examples"};
+    "maximum pattern / part of the loss that the weakest cause on the axis explains", "read off examples"};
 
 inline constexpr std::array kAll{kFamilywiseLevel,
                                  kSignificant,

@@ -160,7 +160,7 @@ TEST(Unexplained, PeriodicForceIsALine) {
   EXPECT_EQ(left.line->output, kTrolleyPosition);
 }
 
-TEST(Unexplained, BrakeThatGripsNowAndThenIsAJumpOfTheSpeed) {
+TEST(Unexplained, BrakeThatGripsIntermittentlyIsAJumpOfTheSpeed) {
   const Left left = left_of(
       [](double t, double, double v) { return std::fmod(t, 3.0) > 2.7 ? -2.0 * std::tanh(v / 1e-3) : 0.0; });
   ASSERT_TRUE(left.jumps);

@@ -29,7 +29,7 @@ struct Options {
   bool quiet = false;
 };
 
-/// Each set of the truth has a seed, counted from the first one; sets of MuJoCo have the seed of the deck.
+/// Each set of tests/truth has a seed, counted from the first one; sets of MuJoCo have the seed of the deck.
 std::uint64_t seed_of(const Options& options, std::size_t number) {
   return options.deck == "truth" ? options.first_seed + number : options.first_seed;
 }

@@ -99,8 +99,8 @@ class Learning {
     return found;
   }
 
-  /// Whether a disturbance is likelier than all before; if so, sets found_. What was once rejected is not
-  /// tried again: the likelihood to exceed only increases.
+  /// True if a disturbance is likelier than all before; sets found_ to its likelihood. A rejected disturbance
+  /// is not evaluated again, because the likelihood of found_ only increases.
   bool is_likelier(const Disturbance& d) {
     const std::array<double, 5> place{d.acceleration, d.correlation_s, d.damping_ps, d.friction,
                                       d.sticks ? 1.0 : 0.0};

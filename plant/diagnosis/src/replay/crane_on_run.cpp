@@ -115,7 +115,8 @@ MeasuredKinematics Replay::CraneOnRun::measured_mid_row(std::size_t row) const {
 
 /// Fixed-point iteration: each round adds the difference between the measurement and the report of the
 /// modelled sensor to the values. The relative error of an encoder's scale is 1e-6 afterwards. For a swing,
-/// the difference is added earlier by the delay of the sensor; otherwise each round would amplify noise.
+/// the difference is shifted to earlier times by the delay of the sensor: without this shift, each round
+/// would amplify the swing for a delay of more than a sixth of its period.
 void Replay::CraneOnRun::invert_sensors() {
   constexpr int kRounds = 5;
   const Run& run = source.run;
@@ -200,7 +201,7 @@ void Replay::CraneOnRun::simulate_inner_coordinates() {
       integrator.step(at);
     });
     integrator.prescribe(measured_at(row + 1));
-    // A coordinate that has diverged begins again at rest, so that all values remain finite: the fit is poor.
+    // A diverged coordinate is set to rest, so that all values remain finite. The fit is then poor.
     for (plant::Inner& coordinate : integrator.inner)
       if (!(std::abs(coordinate.rate) < stepper::kDivergedSpeed)) coordinate = {};
     if (!correcting) continue;

@@ -30,7 +30,7 @@ namespace crane::diagnosis {
 [[nodiscard]] double share_of_error_in_windows(const Fitted& fitted, const Fitted& before);
 
 /// True when three conditions hold:
-/// - The gain of likelihood is significant for the best of `candidates` (Bonferroni): block test and
+/// - The increase of the likelihood is significant for the best of `candidates` (Bonferroni): block test and
 ///   likelihood-ratio test.
 /// - The error decreases: for a first effect by more than kLeastAlone, for a further effect by any amount.
 /// - Each further effect changes an output by at least kLeastBeside of the largest change of this output by

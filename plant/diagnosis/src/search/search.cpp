@@ -24,8 +24,8 @@ constexpr std::size_t kPaired = 3;
 /// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
 /// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
-/// largest likelihood, and of the others those with the smallest error. With fine sensors, small errors of
-/// the times are likelier than the cause of a large error.
+/// largest likelihood, and of the others those with the largest reduction of an error. With fine sensors, the
+/// likelihood prefers small errors of the times to the cause of a large error.
 constexpr std::size_t kLikeliest = 2, kSmallestError = 2;
 
 Effects and_one(Effects effects, const Candidate* candidate) {
@@ -57,7 +57,7 @@ class Search {
         const std::size_t size = level.front().effects.size();
         if (size == 1) try_pairs(level);
         for (std::size_t i = 0; i < std::min(kBeam, level.size()); ++i) {
-          request_.progress(share_done(size, i), "is there another effect?");
+          request_.progress(share_done(size, i), "search for a further effect");
           const double p_value = extend(level[i], kExtensions);
           if (i == 0 && p_value > rules::kSignificant && found.best.deviance.size() >= kFewBlocks) break;
         }
@@ -222,7 +222,8 @@ class Search {
     tried_.resize(std::min(tried_.size(), first + count));
   }
 
-  /// Refits the likeliest of the tried hypotheses, and those with the smallest error, with their own noise.
+  /// Refits the likeliest of the tried hypotheses, and those with the largest reduction of an error, with
+  /// their own noise.
   /// @return in the order of decreasing likelihood
   std::vector<Fitted> refit_likeliest() {
     std::ranges::sort(tried_, {}, &Fitted::misfit);
@@ -264,7 +265,7 @@ class Search {
     return std::ranges::any_of(level, [&](const Fitted& fitted) { return accept(fitted); });
   }
 
-  /// Removes one effect that is not kept beside the others. @return whether there was one
+  /// Removes one effect that is not accepted beside the others. @return whether there was one
   bool drop_one() {
     const Fitted whole = found_.best;
     const Fitted* dropped = nullptr;

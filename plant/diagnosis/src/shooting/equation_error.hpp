@@ -1,6 +1,6 @@
 #pragma once
-/// Equation error of the drives (pieces.hpp): the view of the drives that does not depend on the time of
-/// stick and slip, beside the windows of their replay.
+/// Equation error of the drives (pieces.hpp): a residual that does not depend on the time of stick and slip,
+/// in addition to the residual of the replay.
 #include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {

@@ -16,8 +16,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Simulated before each window of the swing: fills the longest moving average of a swing sensor. Drives need
-/// no lead: their filtered command is known from the beginning of the run.
+/// Time before each window of the swing from which it is simulated: the first row of the window is the report
+/// of a sensor whose last 0.3 s are simulated; a longer memory also contains measured motion. Drives need no
+/// lead: their filtered command is known from the beginning of the run.
 constexpr double kLead_s = 0.3;
 /// Number of alternations of start estimation and noise model.
 constexpr int kLearningRounds = 3;

@@ -112,15 +112,15 @@ Proof proof_of(const HeldOut& held_out, const Effects& effects) {
   }
   if (!(held_out.likelier > rules::kHeldOutWin))
     return {unlikely, runs + "the likelihood of the extended model is not significantly higher"};
-  // A larger likelihood with a larger error: the noise model of the extended model describes an error that
-  // the extension does not remove. A larger likelihood with an error that decreases by an insignificant
-  // amount proves the extension: the likelihood weighs the small errors that noise and disturbance hide.
+  // If the likelihood and the error are larger, the noise model of the extended model describes an error that
+  // the extension does not remove. If the likelihood is larger and the error decreases insignificantly, the
+  // extension is confirmed: the likelihood weighs the small errors that noise and disturbance hide.
   if (held_out.gain_ci95[1] < 0 || !reduces_an_error(held_out, effects))
     return {no_consequence, runs + "the error of the extended model is not smaller"};
   return {};
 }
 
-/// The verdict is "none" after all.
+/// Changes the verdict to "none".
 void nothing_found(Diagnosis& result) {
   result.verdict = Verdict::none;
   result.causes.clear();
@@ -129,7 +129,7 @@ void nothing_found(Diagnosis& result) {
   result.sentence = sentence_of(result);
 }
 
-/// Runs to learn from and held out.
+/// Training runs and held-out runs.
 struct Data {
   Runs train, test;
 };
@@ -165,10 +165,10 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   Hypotheses found = searched(study, request);
   Fitted best = found.best;
   if (!best.effects.empty()) {
-    request.progress(0.85, "how well the data know it");
+    request.progress(0.85, "standard deviations");
     best = with_intervals(study, best, request.seed);
   }
-  request.progress(0.88, "what is left");
+  request.progress(0.88, "patterns in the residual");
   const StatedAccuracy accuracy(rig, request.accuracy);
   auto [result, rival, within_accuracy] = judge(study, found, best, accuracy, losing, request.seed);
   result.excitation = found.excitation;
@@ -198,13 +198,13 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
     }
   }
   if (result.verdict == Verdict::ambiguous) {
-    request.progress(0.95, "which motion would tell them apart");
+    request.progress(0.95, "experiment that separates the hypotheses");
     result.next_experiment = propose_experiment(rig, best.effects, rival, disturbances_of(study));
   }
   give_calibration(study.calibration_beside(best.effects), result);
   if (!losing.empty()) as_measured.whiten_with(study.nuisance());
   name_losing(losing, study, as_measured, result);
-  if (result.verdict == Verdict::unknown) {  // encoders that lose counts are known by their jumps alone
+  if (result.verdict == Verdict::unknown) {  // the jumps alone prove that an encoder loses counts
     const auto first =
         result.causes.begin() + static_cast<std::ptrdiff_t>(std::min(losing.size(), result.causes.size()));
     result.attempted.assign(first, result.causes.end());

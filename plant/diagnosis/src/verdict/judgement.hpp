@@ -9,7 +9,7 @@ namespace crane::diagnosis {
 /// Verdict, causes without their values, remaining patterns, sentence.
 struct Judged {
   Diagnosis diagnosis;
-  Effects rival;  ///< the hypothesis that would most often replace the best one; only when ambiguous
+  Effects rival;  ///< the hypothesis with most votes after the best one; only when ambiguous
   std::vector<bool> within_accuracy;  ///< by effect of the best hypothesis; the others are causes
 };
 /// Makes the verdict "unknown".

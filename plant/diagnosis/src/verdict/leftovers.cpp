@@ -22,14 +22,14 @@ double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
   return sum;
 }
 
-/// Whether the pattern depends on the variable of the law of the candidate.
+/// True if the law of the candidate depends on the variable of the pattern.
 bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   return candidate.law == left.with && candidate.axis == axis_of(left.output);
 }
 
-/// Largest permitted pattern, as a share of the loss of the base model. A term does not match the effect
-/// exactly, so that a larger pattern is permitted in the variable of one law; several laws of the same
-/// variable together match any form. No term of a drive depends on time.
+/// Largest permitted decrease of the sum of squares by a pattern, in squares of the base model. The form of a
+/// term deviates from its effect, so that a larger pattern is permitted in the variable of one law. Several
+/// laws of the same variable together match any form. No term of a drive depends on time.
 double believable(const Unexplained& left, const Effects& effects) {
   if (left.with == GoesWith::time) return rules::kPatternShareOverTime;
   const auto laws = std::count_if(effects.begin(), effects.end(),

@@ -10,8 +10,8 @@
 
 namespace crane::diagnosis {
 
-/// A pattern, with the sum of squares of the base model and the decrease of the sum of squares by the weakest
-/// cause on the axis, in the same noise.
+/// A pattern. `of_base` is the sum of squares of the base model, `of_weakest` the decrease of the sum of
+/// squares by the weakest cause on the axis; both are whitened with the noise model of the pattern.
 struct Pattern {
   Unexplained what;
   double of_base = 0, of_weakest = std::numeric_limits<double>::infinity();
@@ -27,7 +27,7 @@ struct Pattern {
 /// produce a line of the spectrum themselves, and the start of the oscillation is free in each window.
 [[nodiscard]] bool oscillates(const Study& study, const Effects& effects);
 
-/// Whether the pattern is larger than the thresholds permit beside these effects.
+/// True if the pattern exceeds the thresholds of patterns beside these effects.
 [[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);
 
 /// Patterns of the swing beside the best hypothesis that are errors of the model, the largest first. Their

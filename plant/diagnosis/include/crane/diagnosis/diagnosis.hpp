@@ -80,7 +80,7 @@ struct Remainder {
 /// Visibility of one candidate in the training data.
 struct Visibility {
   std::string label, cause, axis;
-  bool visible = false;  ///< true: an effect within the bounds of its parameters would be found
+  bool visible = false;  ///< true: the smallest detectable size is within the bounds of the parameters
   std::vector<Estimate>
       least;  ///< smallest size that is found in 9 of 10 such data sets; empty: no size is found
   struct Alike {
@@ -145,7 +145,7 @@ struct Request {
   std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};
 };
 
-/// @param train,test pieces of runs (load_run); whole runs belong to one side
+/// @param train,test parts of runs (load_run); all parts of one run belong to the same side
 /// @throws DataError for data that are too short or without motion
 [[nodiscard]] Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                                  const Request& request = {});

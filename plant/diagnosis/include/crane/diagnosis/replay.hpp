@@ -1,8 +1,8 @@
 #pragma once
-/// Structured replays: simulations in which some signals are prescribed as measured.
+/// Replays: simulations in which some signals are prescribed as measured. services/replay is unrelated.
 ///   whole  command -> positions and swing
-///   drive  command and measured swing -> positions: fails when drives or friction are wrong
-///   load   measured motion -> swing: fails when the load or its sensors are wrong
+///   drive  command and measured swing -> positions; a large residual indicates an error of drive or friction
+///   load   measured motion -> swing; a large residual indicates an error of the load or its sensors
 ///
 /// Fixed leapfrog steps (plant/stepper). Friction acts at the mid-point of a step, implicitly near
 /// standstill, where tanh(v / v_s) is stiff; a reversal inside a step is located. A delayed or filtered
