@@ -19,7 +19,7 @@ TEST(DelayLine, IsExactOnRampsAtFractionalDelays) {
   for (const double delay : {0.0, 0.25, 7.0, 13.9, 20.0})
     EXPECT_NEAR(line.at(delay), 0.5 * (99 - delay), 1e-12) << delay;
   EXPECT_NEAR(line.at(1e9), 0.5 * 79, 1e-12) << "longer delays read the oldest sample";
-  EXPECT_NEAR(line.at(-1), 0.5 * 99, 1e-12) << "there is no future";
+  EXPECT_NEAR(line.at(-1), 0.5 * 99, 1e-12) << "a negative delay reads the newest sample";
 }
 
 TEST(Delayed1, ReactsToTheSwingOfTauPeriodsAgo) {

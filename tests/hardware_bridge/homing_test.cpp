@@ -94,7 +94,7 @@ TEST(Homing, RequiresTwoDetectionsAtTheSamePositionTheSecondSlowly) {
   once.move(-0.05, 9.2);
   once.move(0.05, 1);
   once.end();
-  EXPECT_FALSE(once.homing.known(0)) << "seen once";
+  EXPECT_FALSE(once.homing.known(0)) << "detected once";
   Hand fast{homing_tower()};
   fast.run_course(0.05);
   fast.end();

@@ -51,7 +51,7 @@ TEST(LastLine, IsReleasedByAnEarlierResetOnceTheSecondWriterHasGone) {
   timeline.release = timeline.permission = false;
   timeline.tick(10);
   timeline.permission = true;
-  EXPECT_FALSE(timeline.tick(10)) << "a second writer is heard";
+  EXPECT_FALSE(timeline.tick(10)) << "the second writer is present";
   timeline.second_writer = false;
   EXPECT_TRUE(timeline.tick());
 }

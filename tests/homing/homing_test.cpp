@@ -1,4 +1,4 @@
-/// A crane with unknown positions at power-on finds them, and only creeps until then.
+/// A crane whose positions are unknown at power-on determines them, and moves at homing speed until then.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -93,7 +93,7 @@ TEST_P(HomingOn, TwiceGivesTheSameZero) {
   crane.home_completely(0);
   const double first_m = crane.shown(0) - crane.truth(0);
   crane.begin_homing(0);
-  EXPECT_FALSE(crane.state().position_known[0]) << "what was known is forgotten";
+  EXPECT_FALSE(crane.state().position_known[0]) << "homing begins with an unknown position";
   crane.run_until([&] { return crane.status().state == crane_STATE_LOCKED; }, 60);
   crane.run(0.3);
   EXPECT_TRUE(crane.state().position_known[0]);
@@ -123,7 +123,7 @@ TEST_P(HomingOn, LostCountsMakeThePositionUnknownUntilHoming) {  // hazard 17
   crane.run(0.5);
   EXPECT_TRUE(crane.safe());
   EXPECT_FALSE(crane.state().position_known[1]);
-  EXPECT_TRUE(crane.state().position_known[0]) << "the others have nothing to do with it";
+  EXPECT_TRUE(crane.state().position_known[0]) << "only one encoder has lost counts";
   crane.run(3);
   crane.home_completely(1);
   EXPECT_EQ(crane.state().latch_reason, crane_LATCH_NONE);

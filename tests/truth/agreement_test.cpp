@@ -1,4 +1,4 @@
-/// Compares the crane of the truth with the simulated plant: the same crane, with independent derivation,
+/// Compares the crane of the generator with the simulated plant: the same crane, with independent derivation,
 /// code and integrator.
 #include <gtest/gtest.h>
 
@@ -66,9 +66,9 @@ TEST(TruthAndPlant, MoveAlikeWithoutFriction) {
   for (const double d : difference(physics, {})) EXPECT_LT(d, 1e-6);
 }
 
-/// The friction at standstill differs: bristles in the truth, a smoothed step of 0.5 mm/s in the plant. At
-/// each reversal this shifts the start of the motion by about a millisecond, the time in which the smoothed
-/// friction rises.
+/// The friction at standstill differs: bristles in the generator, a smoothed step of 0.5 mm/s in the plant.
+/// At each reversal this difference shifts the start of the motion by about a millisecond, the time in which
+/// the smoothed friction rises.
 TEST(TruthAndPlant, MoveAlikeWithFriction) {
   const auto d = difference(truth::rig("tower"),
                             {friction("trolley", 1.5, 6, 0.9, 1.2), friction("slew", 0.15, 0.05, 0.7, 0.6)});

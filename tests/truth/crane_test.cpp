@@ -1,4 +1,4 @@
-/// Compares the crane of the truth with closed forms.
+/// Compares the crane of the generator with closed forms.
 #include "crane.hpp"
 
 #include <gtest/gtest.h>

@@ -60,18 +60,18 @@ int main(int argc, char** argv) {
   app.add_option("--rig", request.rig, "tower, gantry, drive_axis or pendulum")->capture_default_str();
   app.add_option("--effect", effects, "NAME[@AXIS][:AMPLITUDE], repeatable; amplitude 1 is clearly visible");
   app.add_option("--seed", request.seed, "same seed, same bytes")->capture_default_str();
-  app.add_option("--runs", request.training_runs, "training runs, of --list")
+  app.add_option("--runs", request.training_runs, "training runs; --list prints their names")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--test", request.test_runs, "runs held out")->delimiter(',')->capture_default_str();
-  app.add_option("--seconds", request.seconds, "length of every run; 0: as the run is usual")
+  app.add_option("--test", request.test_runs, "held-out runs")->delimiter(',')->capture_default_str();
+  app.add_option("--seconds", request.seconds, "length of every run; 0: usual length of the run")
       ->check(CLI::Range(0.0, 600.0));
   app.add_option("--disturbance", request.disturbance, "multiple of the usual disturbance")
       ->check(CLI::Range(0.0, 100.0));
   app.add_flag("--clean", clean, "no sensor noise, no rounding");
-  app.add_flag("--size", size, "also print how large effects and disturbance are, in windows of 2 s");
+  app.add_flag("--size", size, "also print the deviations by effects and by disturbance, in windows of 2 s");
   app.add_flag("--list", listed, "print effects and runs");
-  app.add_option("--out", out, "directory to write into");
+  app.add_option("--out", out, "directory of the files");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

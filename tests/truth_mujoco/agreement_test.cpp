@@ -129,7 +129,7 @@ TEST(MujocoAndPlant, TheTermOfTheAnswerExplainsTheFault) {
 
 /// For oscillating structures, the residual with the term is larger than the effect of the fault (0.0722 of
 /// 0.0719, 1.02 of 0.048). The answers of these faults are not yet reliable.
-TEST(MujocoAndPlant, DISABLED_TheTermsOfWhatRingsExplainTheFault) {
+TEST(MujocoAndPlant, DISABLED_TheTermsOfOscillatingStructuresExplainTheFault) {
   expect_terms_to_explain({"double_pendulum", "jib_flexibility"});
 }
 

@@ -12,15 +12,16 @@ int main(int argc, char** argv) {
   bool alike = false;
   CLI::App app{
       "Writes measured data with hidden faults, of cranes that are rigid bodies in MuJoCo:\n"
-      "out/set_NNNN/{rig.toml,train_N.csv,test_N.csv,truth.json}. Sets that are there are left as they are."};
-  app.add_option("--deck", deck.name, "its name; part of the seed")->capture_default_str();
-  app.add_option("--seed", deck.seed, "of the deck")->capture_default_str();
+      "out/set_NNNN/{rig.toml,train_N.csv,test_N.csv,truth.json}. Existing sets are not written again."};
+  app.add_option("--deck", deck.name, "name of the deck; part of the seed")->capture_default_str();
+  app.add_option("--seed", deck.seed, "seed of the deck")->capture_default_str();
   app.add_option("--first", first, "number of the first set")->capture_default_str();
-  app.add_option("--sets", count, "how many")->capture_default_str();
+  app.add_option("--sets", count, "number of sets")->capture_default_str();
   app.add_option("--out", out, "directory")->capture_default_str();
-  app.add_option("--truth", truth, "directory of set_NNNN.json; without it truth.json lies beside the data");
+  app.add_option("--truth", truth,
+                 "directory of the answers, set_NNNN.json; default: truth.json beside the data");
   app.add_flag("--alike", alike,
-               "also find which faults these data hardly tell apart; takes three times as long");
+               "also name the faults that change these data in the same way; takes three times as long");
   CLI11_PARSE(app, argc, argv);
   try {
     for (std::size_t number = first; number < first + count; ++number) {

@@ -16,7 +16,7 @@ struct Range {
   double low, high, none;
 };
 
-// The table. `README.md` gives the reasons.
+// The table of README.md.
 inline constexpr Range kDisturbance{"disturbance", "N rms on the load, each way", 0.003, 0.5, 0.1};
 inline constexpr Range kDriveDisturbance{"drive_disturbance", "V rms at each drive", 0.001, 0.08, 0.1};
 inline constexpr Range kCorrelation{"correlation", "s", 0.05, 2, 0};
