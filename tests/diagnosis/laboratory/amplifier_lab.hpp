@@ -1,11 +1,13 @@
 #pragma once
 /// A laboratory whose amplifier limits its output or the rate of its output. One drive with set-valued
 /// Coulomb friction, computed without code of the project:
-///   x'' = K (w - c sgn(x') - b x'),   |w| <= limit,   |w'| <= rate,   w follows the command u
+///   x'' = K (w + a sin(2 pi x / l) - c sgn(x') - b x'),   |w| <= limit,   |w'| <= rate,   w follows the
+///   command u
 /// Impulses of friction in steps of 0.1 ms: the axis sticks exactly.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -21,8 +23,13 @@ struct Amplifier {
 struct Axis {
   double gain_mps2pv = 0.83, coulomb_v = 0.34, viscous_vspm = 1.9;
   Amplifier amplifier;
-  double disturbance_v = 0;  ///< standard deviation, first order, 0.5 s
+  double disturbance_v = 0;              ///< standard deviation, first order, 0.5 s
+  double wave_v = 0, wave_length_m = 1;  ///< a and l
 };
+
+inline double wave_of(const Axis& axis, double x) {
+  return axis.wave_v * std::sin(2 * std::numbers::pi * x / axis.wave_length_m);
+}
 
 /// Motion of the axis under a position controller at 100 Hz. The set point changes every 1.3 s, within 0.3 m
 /// of the origin; a critically damped filter at `speed`, rad/s, makes the reference.
@@ -53,7 +60,7 @@ inline recording::Table recorded_axis(const Axis& axis, double duration_s, std::
     const double step_v = axis.amplifier.rate_vps * kStep_s;
     w += std::clamp(std::clamp(command_v, -axis.amplifier.limit_v, axis.amplifier.limit_v) - w, -step_v,
                     step_v);
-    v += kStep_s * axis.gain_mps2pv * (w + push_v - axis.viscous_vspm * v);
+    v += kStep_s * axis.gain_mps2pv * (w + push_v + wave_of(axis, x) - axis.viscous_vspm * v);
     const double brake = kStep_s * axis.gain_mps2pv * axis.coulomb_v;
     v -= std::clamp(v, -brake, brake);
     x += kStep_s * v;

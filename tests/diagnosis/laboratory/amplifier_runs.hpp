@@ -19,8 +19,8 @@ inline configuration::Rig rig_of_axis() {
 }
 
 /// Runs of the axis whose gain and friction differ from the rig file within its usual accuracy.
-inline std::vector<Run> runs_of_axis(const strange::Amplifier& amplifier, std::uint64_t seed) {
-  strange::Axis axis{.amplifier = amplifier, .disturbance_v = 0.005};
+inline std::vector<Run> inaccurate_runs_of(strange::Axis axis, std::uint64_t seed) {
+  axis.disturbance_v = 0.005;
   axis.gain_mps2pv *= 1.013;
   axis.coulomb_v *= 0.96;
   std::vector<Run> runs;
@@ -29,6 +29,11 @@ inline std::vector<Run> runs_of_axis(const strange::Amplifier& amplifier, std::u
          load_run(strange::recorded_axis(axis, 16, 10 * seed + run), rig_of_axis(), "axis.csv").runs)
       runs.push_back(std::move(piece));
   return runs;
+}
+
+/// The same, with this amplifier and no other effect.
+inline std::vector<Run> runs_of_axis(const strange::Amplifier& amplifier, std::uint64_t seed) {
+  return inaccurate_runs_of(strange::Axis{.amplifier = amplifier}, seed);
 }
 
 /// Error of the first drive.

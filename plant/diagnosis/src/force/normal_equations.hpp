@@ -19,6 +19,11 @@ struct NormalEquations {
 /// Least-squares amplitudes of cosine and sine.
 [[nodiscard]] Eigen::Vector2d wave_amplitude(const NormalEquations& wave);
 
+/// The equations of the patterns after the first `known`, with the known patterns fitted at any amplitude.
+[[nodiscard]] NormalEquations beside_first(const NormalEquations& all, Eigen::Index known);
+
+/// @param response of the piece's residual, row x pattern
+[[nodiscard]] NormalEquations normal_equations(const Piece& piece, const Eigen::MatrixXd& response);
 /// @param forces on the piece, row x pattern
 [[nodiscard]] NormalEquations normal_equations(const Pieces& pieces, const Piece& piece,
                                                Eigen::MatrixXd forces);

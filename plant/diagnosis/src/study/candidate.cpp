@@ -19,6 +19,8 @@ InRigFile in_rig_file(bool known) { return known ? InRigFile::yes : InRigFile::n
 
 /// Travel of the support [m or rad] below which an error of its sensor is not visible.
 constexpr double kResting = 0.005;
+/// Longest wave of a force or a friction along the travel, in travels: half a wave.
+constexpr double kLongestWave = 2;
 
 class Builder {
  public:
@@ -184,8 +186,8 @@ class Builder {
   void add_tight_spots(const std::string& axis, Output output) {
     std::vector<std::vector<double>> shapes;
     const double travel = travelled(output), middle = travel_of(runs_, output).middle();
-    const FreeParameter wavelength =
-        free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 2 * travel, 0.01 * travel);
+    const FreeParameter wavelength = free_parameter("position_dependent_friction", "wavelength", 0.1 * travel,
+                                                    kLongestWave * travel, 0.01 * travel);
     for (const double share : {1.6, 0.8, 0.4})
       for (int place = 0; place < 4 && share * travel > wavelength.low; ++place)
         shapes.push_back({share * travel, middle + 0.25 * place * share * travel});
@@ -203,7 +205,7 @@ class Builder {
         at_once("torque_ripple", axis,
                 {free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
                  free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
-                 free_parameter("torque_ripple", "period", 1e-3, 0.25 * travelled(output), 1e-4)},
+                 free_parameter("torque_ripple", "period", 1e-3, kLongestWave * travelled(output), 1e-4)},
                 {});
     ripple.waves = true;
     add_force(GoesWith::position, std::move(ripple));

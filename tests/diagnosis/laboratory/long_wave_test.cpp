@@ -1,0 +1,32 @@
+/// Forces that vary a few times along the travel: data of a generator that shares nothing with the diagnosis.
+#include <gtest/gtest.h>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "laboratory/amplifier_runs.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+constexpr double kAmplitude_v = 0.12, kTravel_m = 0.6;
+
+/// The only cause of a diagnosis is a ripple with `periods` in the travel.
+void expect_wave(double periods) {
+  const double length_m = kTravel_m / periods;
+  const strange::Axis axis{.amplifier = {}, .wave_v = kAmplitude_v, .wave_length_m = length_m};
+  Request request;
+  request.most_effects = 1;
+  const Diagnosis found =
+      diagnose(rig_of_axis(), inaccurate_runs_of(axis, 21), inaccurate_runs_of(axis, 22), request);
+  EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
+  ASSERT_EQ(found.causes.size(), 1U) << found.sentence;
+  ASSERT_EQ(found.causes[0].name, "torque_ripple") << found.sentence;
+  EXPECT_NEAR(found.causes[0].parameters.at(0).value, kAmplitude_v, 0.1 * kAmplitude_v);
+  EXPECT_NEAR(found.causes[0].parameters.at(2).value, length_m, 0.02 * length_m);
+}
+
+TEST(LongWaves, NameARippleWithThreePeriodsInTheTravel) { expect_wave(3); }
+
+TEST(LongWaves, NameARippleWithOneAndAHalfPeriodsInTheTravel) { expect_wave(1.5); }
+
+}  // namespace
+}  // namespace crane::diagnosis
