@@ -1,5 +1,5 @@
-/// Many cranes on one computer: a loop in one process behaves like six processes, sixteen cranes share a
-/// domain, and a full domain is refused with the cause.
+/// Many cranes on one computer: a loop in one process behaves like six processes, cranes share a domain,
+/// and a full domain is refused with the cause.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,6 +41,9 @@ class Fleet : public testing::Test {
   static bus::Bus operator_of(const std::string& crane) {
     return bus::Bus{{.domain = kDomain, .crane = crane, .source = crane_SOURCE_OPERATOR}};
   }
+
+  /// Starts cranes of one domain, moves them one after the other, and ends them together.
+  void start_move_and_stop(int cranes);
 
   recording::TemporaryDirectory directory_;
 };
@@ -110,19 +113,26 @@ TEST_F(Fleet, ADeathOfTheLoopEndsTheCommandWithItsName) {
   EXPECT_THAT(run.errors(), HasSubstr("loop has ended: signal 11"));
 }
 
-TEST_F(Fleet, SixteenCranesInOneDomainMoveAndStop) {
+void Fleet::start_move_and_stop(int cranes) {
   std::deque<ProgramRun> runs;
-  for (int i = 0; i < 16; ++i)
-    runs.emplace_back(crane_program(), up(crane_name() + "_" + std::to_string(i), {"--in-process"}));
+  const auto name = [](int i) { return crane_name() + "_" + std::to_string(i); };
+  for (int i = 0; i < cranes; ++i) runs.emplace_back(crane_program(), up(name(i), {"--in-process"}));
   for (auto& run : runs) ASSERT_TRUE(run.wait_for("is up with", 60s)) << run.errors();
-  for (int i = 0; i < 16; ++i) {
-    auto bus = operator_of(crane_name() + "_" + std::to_string(i));
+  for (int i = 0; i < cranes; ++i) {
+    auto bus = operator_of(name(i));
     experiments::RealtimeSession session{bus, [] {}};
     move_and_stop(session);
   }
   for (const auto& run : runs) run.send(SIGINT);
   for (auto& run : runs) EXPECT_EQ(run.wait(20s), 0) << run.errors();
 }
+
+TEST_F(Fleet, FourCranesInOneDomainMoveAndStop) { start_move_and_stop(4); }
+
+/// Sixteen cranes occupy two thirds of two processors, and all of them while they start.
+class LongFleet : public Fleet {};
+
+TEST_F(LongFleet, SixteenCranesInOneDomainMoveAndStop) { start_move_and_stop(16); }
 
 /// Sockets on the discovery ports of a domain, as participants of other programs hold them.
 class TakenPorts {

@@ -1,15 +1,11 @@
 #include "host.hpp"
 
-#include <sched.h>
 #include <spdlog/async.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-#include <sys/mman.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <iostream>
 
 #include "crane/runtime/node.hpp"
@@ -30,20 +26,17 @@ void log_without_waiting() {
 
 }  // namespace
 
-void enter_realtime(Node& node, int priority) {
+void enter_realtime(RealtimeScheduling& scheduling, Node& node, int priority) {
   if (priority <= 0) return;
-  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
-    node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(errno),
+  const auto answer = scheduling.enter(priority);
+  if (answer.memory != 0)
+    node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(answer.memory),
                  "grant CAP_IPC_LOCK or raise the memlock limit");
   end_when_spinning();
-  const sched_param parameters{.sched_priority = priority};
-  for (const auto& thread : std::filesystem::directory_iterator{"/proc/self/task"}) {
-    const auto id = static_cast<pid_t>(std::stol(thread.path().filename().string()));
-    if (::sched_setscheduler(id, SCHED_FIFO, &parameters) == 0 || errno == ESRCH) continue;
-    node.warning("no_realtime_scheduling", std::string{"SCHED_FIFO not permitted: "} + std::strerror(errno),
+  if (answer.scheduling != 0)
+    node.warning("no_realtime_scheduling",
+                 std::string{"SCHED_FIFO not permitted: "} + std::strerror(answer.scheduling),
                  "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
-    return;
-  }
 }
 
 Clock clock_from(const std::string& name) {

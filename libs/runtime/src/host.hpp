@@ -5,16 +5,16 @@
 
 #include "crane/runtime/component.hpp"
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/realtime_scheduling.hpp"
 
 namespace crane::runtime {
 
 inline constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
 
-/// Locks the memory and requests real-time scheduling for every thread of this process. The receive threads
-/// of the bus need the same priority as the loop. Logs a warning when the system denies the request.
-/// Real-time priority is requested last: start-up work must not preempt running processes.
+/// Requests real-time scheduling for this process (RealtimeScheduling::enter()) and sets the limit of
+/// end_when_spinning(). Logs a warning of `node` when the system denies a request.
 /// @param priority  0: ordinary scheduling
-void enter_realtime(Node& node, int priority);
+void enter_realtime(RealtimeScheduling& scheduling, Node& node, int priority);
 
 /// @throws configuration::ConfigurationError for an unknown name
 [[nodiscard]] Clock clock_from(const std::string& name);

@@ -36,10 +36,11 @@ int run_loop(const std::vector<ComponentSpec>& specs, const LoopOptions& options
   joining.ledger = options.ledger.empty() ? bus::Ledger::create() : bus::Ledger::open(options.ledger);
   bus::Bus participant{std::move(joining)};
   refuse_second_writer(participant, writes_of(specs));
+  RealtimeScheduling scheduling;
   InProcessStack stack{specs, rig, controller, [&](const ComponentSpec& spec) {
                          return participant.share(spec.source, new_epoch());
                        }};
-  enter_realtime(stack.node(0), options.priority);
+  enter_realtime(scheduling, stack.node(0), options.priority);
   end_when_growing();
   while (!stop_requested()) {
     stack.pump();

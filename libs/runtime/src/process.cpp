@@ -65,8 +65,9 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
     // The delivery of a sample must not publish the same topic (see Bus::call_on_arrival).
     writes(spec, topic) ? turn.wake() : turn.run();
   });
+  RealtimeScheduling scheduling;  // outlives the component, which closes the brakes when it ends
   HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};
-  if (clock == Clock::realtime) enter_realtime(hosted.node(), options.priority);
+  if (clock == Clock::realtime) enter_realtime(scheduling, hosted.node(), options.priority);
   end_when_growing();
   if (hosted.component().paced())
     loop_paced(hosted.component());

@@ -1,18 +1,14 @@
 /// crane_emulated_rig: an emulated Servo-to-Go card with its crane, in a separate process. The process
 /// continues when the bridge ends or hangs; the watchdog relay of the emulated rig then closes the brakes.
-#include <sched.h>
-#include <sys/mman.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <iostream>
 
 #include "crane/emulated_rig/rig_server.hpp"
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/realtime_scheduling.hpp"
 
 namespace {
 
@@ -24,13 +20,11 @@ struct Options {
   int model = 1, priority = 60;
 };
 
-void enter_realtime(int priority) {
-  if (priority <= 0) return;
-  const sched_param parameters{.sched_priority = priority};
-  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 && ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0)
-    return;
-  std::cerr << "crane_emulated_rig: no realtime scheduling: " << std::strerror(errno)
-            << "; its relay may react late under load\n";
+void enter_realtime(runtime::RealtimeScheduling& scheduling, int priority) {
+  const auto answer = scheduling.enter(priority);
+  if (const int denied = answer.memory != 0 ? answer.memory : answer.scheduling; denied != 0)
+    std::cerr << "crane_emulated_rig: no realtime scheduling: " << std::strerror(denied)
+              << "; its relay may react late under load\n";
 }
 
 /// The steps are much shorter than a tick, so that no toggle of an output is missed.
@@ -50,7 +44,8 @@ int run(const Options& options) {
     while (!runtime::stop_requested()) server.serve_advance();
     return runtime::kExitDone;
   }
-  enter_realtime(options.priority);
+  runtime::RealtimeScheduling scheduling;
+  enter_realtime(scheduling, options.priority);
   run_in_realtime(server, rig.period_s);
   return runtime::kExitDone;
 }

@@ -1,0 +1,31 @@
+#pragma once
+/// SCHED_FIFO and locked memory for a process of the loop, until its work ends.
+namespace crane::runtime {
+
+class RealtimeScheduling {
+ public:
+  /// Answers of the system to enter(): 0 or errno.
+  struct Answer {
+    int memory = 0;      ///< of the request to lock the memory
+    int scheduling = 0;  ///< of the request for SCHED_FIFO; the first denied thread
+  };
+
+  RealtimeScheduling() = default;
+  RealtimeScheduling(const RealtimeScheduling&) = delete;
+  RealtimeScheduling& operator=(const RealtimeScheduling&) = delete;
+  /// Returns all threads to ordinary scheduling. The system frees the memory of a process with the priority
+  /// of that process, and the locked memory of six processes occupies two processors for 40 ms. With the
+  /// priority of a loop, this would stop another crane on the same computer.
+  ~RealtimeScheduling();
+
+  /// Locks the memory and requests SCHED_FIFO for every thread of this process: the receive threads of the
+  /// bus need the same priority as the loop. Call this last: start-up work must not preempt running
+  /// processes.
+  /// @param priority  1 to 99; 0 or less: does nothing
+  [[nodiscard]] Answer enter(int priority);
+
+ private:
+  bool entered_ = false;
+};
+
+}  // namespace crane::runtime
