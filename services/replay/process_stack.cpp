@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "crane/runtime/convert.hpp"
 #include "crane/runtime/process.hpp"
 
 namespace crane::replay {
@@ -104,15 +103,11 @@ bool ProcessReplay::deliver(const Received& input, std::uint64_t tick) {
   }
   const auto jog = decoded(topics::jog, input.cdr);
   if (!jog) return false;
-  const auto& sender = writers_.operator_of(jog->header, jog->client);
-  until([&] { return sender.jogs.matched() > 0; }, "the supervisor to receive crane/jog");
-  if (!writers_.publish_input(input)) return false;
-  // A request that the supervisor refuses: its confirmation shows that the sample before it has arrived.
-  msg::Request probe{};
-  runtime::assign(probe.client, jog->client);
-  probe.kind = crane_REQUEST_MOVE;
-  probe.apply_tick = tick;
-  schedule(writers_.operator_of(jog->header, jog->client), probe);
+  auto& sender = writers_.operator_of(jog->header, jog->client);
+  until([&] { return sender.jogs.matched() > 0; }, "the supervisor to discover a writer of crane/jog");
+  if (!sender.jogs.publish(*jog)) return false;
+  until([&] { return sender.jogs.wait_until_received(std::chrono::milliseconds{20}); },
+        "the supervisor to receive a sample of crane/jog");
   return true;
 }
 

@@ -35,8 +35,8 @@ class ProcessReplay final : public ReplayedStack {
 
  private:
   void start(const Cdr& first_state);
-  /// The samples of two topics may overtake each other. Therefore a request is scheduled for the tick, and
-  /// the tick begins after the supervisor has confirmed it.
+  /// The samples of two topics may overtake each other. Therefore the tick begins after the supervisor has
+  /// received every sample of the stick, and has confirmed every request, which is scheduled for the tick.
   bool deliver(const Received& input, std::uint64_t tick);
   void schedule(RecordedWriters::Operator& sender, const msg::Request& request);
   bool is_scheduled(const msg::Request& request);

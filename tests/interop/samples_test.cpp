@@ -82,6 +82,28 @@ TEST_P(Samples, OfALockstepChunkArriveCompleteAndInOrder) {
   }
 }
 
+TEST_P(Samples, ThatAreAcknowledgedCanBeTakenAtOnce) {
+  constexpr std::uint64_t kSamples = 20;
+  auto writer = from.publisher(topics::jog);
+  auto reader = to.subscriber(topics::jog);
+  ASSERT_TRUE(eventually(to, [&] { return writer.matched() == 1; }));
+  for (std::uint64_t i = 0; i < kSamples; ++i) {
+    msg::Jog sample{};
+    sample.header.tick = i;
+    ASSERT_TRUE(writer.publish(sample));
+    ASSERT_TRUE(writer.wait_until_received(kPatience));
+    const auto taken = reader.take();
+    ASSERT_TRUE(taken) << "sample " << i;
+    ASSERT_EQ(taken->header.tick, i);
+  }
+}
+
+TEST_P(Samples, ArriveWithoutAReaderAtNobody) {
+  auto writer = from.publisher(topics::jog);
+  ASSERT_TRUE(writer.publish({}));
+  EXPECT_TRUE(writer.wait_until_received(kPatience));
+}
+
 TEST_P(Samples, AreAnsweredOnArrival) {
   constexpr std::uint64_t kTicks = 500;
   std::atomic<bool> ready = false;

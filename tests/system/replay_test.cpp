@@ -1,5 +1,5 @@
-// A run in real time is recorded, and replayed bit for bit in one process and as processes of both DDS
-// vendors.
+// A run in real time with a move and a stick is recorded, and replayed bit for bit in one process and as
+// processes of both DDS vendors.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -26,7 +26,7 @@ Arguments joined(Arguments first, const Arguments& second) {
 
 class RecordedVendor : public testing::TestWithParam<const char*> {
  protected:
-  /// Records a start and a move, then the commands `more`.
+  /// Records a start, a move, and the commands `more`.
   void record(const std::vector<Arguments>& more = {}) {
     const Arguments where{"--domain", std::to_string(kDomain), "--crane", crane_name()};
     ProgramRun up{kCrane, joined({"up", "--dds", GetParam(), "--record", file_, "--no-black-box"}, where)};
@@ -71,39 +71,22 @@ class RecordedVendor : public testing::TestWithParam<const char*> {
         EXPECT_GT(in_one_process.at("irregular_ticks"), 0) << as_processes.at("ends");
     }
   }
-  const Arguments kStick{"jog", "--slew", "-0.3", "--for", "1"};
   recording::TemporaryDirectory directory_;
   std::string file_ = (directory_ / "run.mcap").string();
 };
 
 TEST_P(RecordedVendor, IsReplayedInOneProcessAndAsProcessesOfBothVendors) {
-  ASSERT_NO_FATAL_FAILURE(record());
+  ASSERT_NO_FATAL_FAILURE(record({{"jog", "--slew", "-0.3", "--for", "1"}}));
   const auto in_one_process = equal_replay({});
   ASSERT_FALSE(in_one_process.is_null());
   expect_whole(in_one_process);
   expect_equal_as_processes(in_one_process);
 }
 
-TEST_P(RecordedVendor, WithAStickIsReplayedInOneProcess) {
-  ASSERT_NO_FATAL_FAILURE(record({kStick}));
-  const auto result = equal_replay({});
-  ASSERT_FALSE(result.is_null());
-  expect_whole(result);
-}
-
-/// Samples of the stick and requests have different writers: under load, the process of the supervisor may
-/// receive a sample of the stick one tick later than recorded.
-TEST_P(RecordedVendor, KnownShortcomingUnderLoadWithAStickIsReplayedAsProcesses) {
-  ASSERT_NO_FATAL_FAILURE(record({kStick}));
-  const auto in_one_process = equal_replay({});
-  ASSERT_FALSE(in_one_process.is_null());
-  expect_equal_as_processes(in_one_process);
-}
-
 /// The ramp of a stop begins after a time of rest on the local clock of the supervisor. A replay knows the
 /// sample times only; under load, its ramp may begin one tick later.
 TEST_P(RecordedVendor, KnownShortcomingUnderLoadIsReplayedThroughTheRampOfAStop) {
-  ASSERT_NO_FATAL_FAILURE(record({kStick, {"stop"}}));
+  ASSERT_NO_FATAL_FAILURE(record({{"stop"}}));
   const auto result = equal_replay({});
   ASSERT_FALSE(result.is_null());
   expect_whole(result);

@@ -52,6 +52,9 @@ bool UntypedPublisher::send(void* sample) {
 }
 bool UntypedPublisher::dispose_of(const void* sample) { return state_->writer->dispose(sample); }
 bool UntypedPublisher::assert_liveliness() { return state_->writer->assert_liveliness(); }
+bool UntypedPublisher::wait_until_received(std::chrono::nanoseconds timeout) {
+  return state_->writer->wait_until_received(timeout);
+}
 int UntypedPublisher::matched() const { return state_->writer->matched(); }
 
 CdrPublisher::CdrPublisher(const topics::Description& topic, UntypedPublisher&& untyped)

@@ -1,6 +1,7 @@
 #pragma once
 /// Publishers and subscribers of one topic. crane/bus/bus.hpp creates them.
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -52,6 +53,9 @@ class UntypedPublisher {
   UntypedPublisher& operator=(UntypedPublisher&&) noexcept;
 
   [[nodiscard]] bool assert_liveliness();
+  /// Waits until all matched readers have acknowledged all samples of this publisher: each reader can then
+  /// take them. @return false when a reader has not acknowledged within `timeout`
+  [[nodiscard]] bool wait_until_received(std::chrono::nanoseconds timeout);
   /// Number of matched readers.
   [[nodiscard]] int matched() const;
 
