@@ -4,98 +4,11 @@
 #include <cmath>
 
 #include "crane/protection.hpp"
+#include "machine_inputs.hpp"
+#include "taken_sample.hpp"
 
 namespace crane::supervisor {
 namespace {
-
-// largest value of the counters, which would overflow if a stream were missing for months
-constexpr int kCounterEnd = 1'000'000;
-
-bool all_finite(const Sample& sample) {
-  return std::isfinite(sample.time_s) &&
-         std::ranges::all_of(sample.position, [](double x) { return std::isfinite(x); }) &&
-         std::isfinite(sample.swing_radial_rad) && std::isfinite(sample.swing_tangential_rad);
-}
-
-/// All earlier samples are those of the old bridge.
-void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& memory) {
-  if (!input.bridge_restarted) return;
-  AxisFlags known{};
-  for (std::size_t i = 0; i < kAxes; ++i) known[i] = !memory.sample.position_unknown[i];
-  const bool usable = input.state_arrived && all_finite(input.sample);
-  take_over(limits, input.now_s, memory.motion, known, usable ? &input.sample.position : nullptr,
-            memory.restart);
-  memory.motion = {};
-  memory.brakes = {};
-  memory.relay = {};
-  memory.following = {};
-  memory.pendulum = {};
-  memory.zones = {};
-  memory.sample = {};
-  memory.overruns_in_row = 0;
-}
-
-/// @return true when a usable sample has arrived in this tick
-bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memory) {
-  if (!input.state_arrived || !all_finite(input.sample)) {
-    memory.state_missing_in_row = std::min(memory.state_missing_in_row + 1, kCounterEnd);
-    return false;
-  }
-  memory.state_missing_in_row = 0;
-  const bool late = memory.motion.started && input.sample.overruns != memory.sample.overruns;
-  memory.overruns_in_row = late ? std::min(memory.overruns_in_row + 1, kCounterEnd) : 0;
-  for (std::size_t i = 0; i < kAxes; ++i)
-    if (memory.motion.started && memory.sample.position_unknown[i] && !input.sample.position_unknown[i])
-      set_homed_position(i, input.sample.position[i], memory.motion, memory.brakes);
-  memory.sample = input.sample;
-  observe(limits, input.now_s, input.sample.time_s, input.sample.position, memory.motion);
-  for (std::size_t i = 0; i < kAxes; ++i)  // homing ends the doubt about a position
-    if (memory.sample.position_unknown[i]) memory.restart.doubted[i] = false;
-  watch_load(limits, input.now_s, memory.sample.swing_radial_rad, memory.sample.swing_tangential_rad,
-             memory.restart);
-  return true;
-}
-
-bool is_homing(const TickMemory& memory, std::size_t axis) {
-  return memory.machine.homing && memory.homing_axis == axis;
-}
-
-/// True when the brake of the axis opens. Brakes of all other axes stay closed.
-bool takes_part(const Limits& limits, const TickMemory& memory, std::size_t axis) {
-  return limits.axis[axis].present && (!memory.machine.homing || memory.homing_axis == axis);
-}
-
-AxisFlags unknown_axes(const Limits& limits, const TickMemory& memory) {
-  AxisFlags unknown{};
-  for (std::size_t i = 0; i < kAxes; ++i)
-    unknown[i] = limits.axis[i].present && (memory.sample.position_unknown[i] || is_homing(memory, i));
-  return unknown;
-}
-
-AxisFlags unclear_axes(const TickInput& input, const TickMemory& memory) {
-  AxisFlags unclear{};
-  for (std::size_t i = 0; i < kAxes; ++i) unclear[i] = memory.restart.doubted[i] && !input.confirmed[i];
-  return unclear;
-}
-
-/// @return index of the first set flag; kAxes: none
-std::size_t first_of(const AxisFlags& flags) {
-  return static_cast<std::size_t>(std::ranges::find(flags, true) - flags.begin());
-}
-
-bool every_brake_open(const Limits& limits, const TickMemory& memory) {
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    if (takes_part(limits, memory, i) && memory.sample.brake_closed[i]) return false;
-  }
-  return true;
-}
-
-bool every_brake_closed(const Limits& limits, const TickMemory& memory) {
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    if (limits.axis[i].present && !memory.sample.brake_closed[i]) return false;
-  }
-  return true;
-}
 
 /// Advances homing by one tick while an axis is homed. @return speed of the reference, unit/s
 double creep(const Limits& limits, TickMemory& memory) {
@@ -110,24 +23,6 @@ double creep(const Limits& limits, TickMemory& memory) {
                       .other_switch = (mark != control::Mark::limit_low && sample.limit_low[i]) ||
                                       (mark != control::Mark::limit_high && sample.limit_high[i])},
                      memory.homing);
-}
-
-bool moved(const Limits& limits, const PerAxis& from, const PerAxis& to) {
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    if (limits.axis[i].present && std::abs(to[i] - from[i]) > limits.axis[i].brake_slip) return true;
-  }
-  return false;
-}
-
-EnvelopeInput measured_now(const Limits& limits, const TickInput& input, const TickMemory& memory) {
-  return {.position = memory.motion.position,
-          .speed = memory.motion.speed,
-          .swing_radial_rad = memory.sample.swing_radial_rad,
-          .swing_tangential_rad = memory.sample.swing_tangential_rad,
-          .limit_low = memory.sample.limit_low,
-          .limit_high = memory.sample.limit_high,
-          .speed_share = input.speed_share,
-          .unknown = unknown_axes(limits, memory)};
 }
 
 /// Until the self-test has passed, the position that the closed brakes must hold is set again in every tick.
@@ -197,49 +92,6 @@ ZoneVerdict guard_zones(const Limits& limits, bool sampled, GateOutput& gated, T
   const ZoneVerdict verdict = filter_zones(limits, in, memory.zones);
   if (verdict.touched && protection::enabled("supervisor_zone")) gated.drive_v = {};
   return verdict;
-}
-
-Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
-                      const GateOutput& gated, bool brakes_failed, bool relay_stuck,
-                      const TickMemory& memory) {
-  const Sample& sample = memory.sample;
-  const std::size_t unhomed = first_of(unknown_axes(limits, memory));
-  const std::size_t unclear = first_of(unclear_axes(input, memory));
-  return {
-      .now_s = input.now_s,
-      .self_test = input.self_test,
-      .state_stale = !memory.motion.started || memory.state_missing_in_row >= limits.state_stale_after_ticks,
-      .demand_stale = gated.stale,
-      .gate_cause = gated.cause,
-      .measured = measured_now(limits, input, memory),
-      .envelope = envelope,
-      .estop_pressed = sample.estop_pressed,
-      .bridge_latched = sample.command_stale || sample.command_invalid,
-      .watchdog_dropped = sample.watchdog_dropped,
-      .second_writer = input.second_writer,
-      .configuration_differs = input.configuration_differs,
-      .foreign_command = input.foreign_command,
-      .bridge_restarted = input.bridge_restarted,
-      .position_doubtful = (unclear < kAxes),
-      .doubtful_axis = unclear % kAxes,
-      .swing_zero_doubtful = memory.restart.swing_zero_doubtful,
-      .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
-      .brake_failed = brakes_failed || input.brake_open_without_command,
-      .relay_failed = relay_stuck,
-      .relay_closed = !memory.relay_permitted && !sample.watchdog_dropped,
-      .moved_while_arming =
-          memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
-      .demand_near_zero = gated.near_zero,
-      .brakes_open = every_brake_open(limits, memory),
-      .brakes_closed = every_brake_closed(limits, memory),
-      .standstill = standstill(limits, input.now_s, memory.motion),
-      .reference_moving = input.reference_moving,
-      .not_homed = unhomed < kAxes,
-      .unhomed_axis = unhomed % kAxes,
-      .can_home = limits.axis[input.home_axis].homes(),
-      .homed = memory.machine.homing && memory.homing.phase == HomingPhase::done,
-      .homing_failure = memory.machine.homing ? memory.homing.failure : HomingFailure::none,
-      .requests = input.requests};
 }
 
 PerAxis drive_volts(const Outputs& decided, const GateOutput& gated, bool ramp_begins, TickMemory& memory) {
