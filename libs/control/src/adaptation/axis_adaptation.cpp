@@ -19,12 +19,6 @@ constexpr double kLowerShare = 0.01;    // of the level: least excess that lower
 constexpr int kLowerBlocks = 2;         // in a row that show the excess
 constexpr double kRamp_vps = 1;         // largest rate of a level in use
 constexpr int kRefused = 5;             // blocks in a row: the friction has changed
-constexpr double kExcessShare = 0.15;   // of the break-away level: standard deviation of its excess
-constexpr double kBreakAway_v = 0.04;   // standard deviation of one break-away
-constexpr int kRest_ticks = 5;          // within the zero band before a break-away
-constexpr int kMean_ticks = 3;          // of a break-away
-constexpr double kCreepBands = 0.4;     // zero bands: the break-away excess acts below this speed
-constexpr double kMeanScatter = 2;      // of a mean over kMean_ticks, scatters of a block: 1 / duration
 constexpr double kCeilingCut = 0.9;     // of the used level, after an oscillation
 constexpr double kLeastUnknown =
     0.75;  // of the rig file's level: an oscillation lowers an unknown level to it
@@ -50,13 +44,11 @@ AxisAdaptation::AxisAdaptation(const Design& design, std::size_t axis)
       period_s_{design.period_s},
       gain_{axis == kTrolley ? design.crane.trolley_gain_mps2pv : design.crane.slew_gain_radps2pv},
       friction_{design.friction[axis]},
+      break_away_{friction_, share_},
       limit_cycle_{zero_band_, period_s_} {
   file_ = {{{friction_.coulomb_positive_v, friction_.viscous_positive_vspm, friction_.stiction_positive_v},
             {friction_.coulomb_negative_v, friction_.viscous_negative_vspm, friction_.stiction_negative_v}}};
   used_ = target_ = good_ = file_;
-  for (std::size_t d = 0; d < 2; ++d)
-    excess_[d] = {std::max(0.0, file_[d].static_v - file_[d].coulomb_v),
-                  squared_v(kExcessShare * file_[d].static_v)};
   ceiling_.fill(1 + share_);
 }
 
@@ -66,7 +58,8 @@ void AxisAdaptation::step(const AxisBalance* balance, AdaptationFreeze reason, L
   report_.freeze = reason;
   if (balance == nullptr || reason != AdaptationFreeze::none) {
     leave_block();
-    rest_ticks_ = skipped_ticks_ = 0;
+    break_away_.leave_rest();
+    skipped_ticks_ = 0;
     limit_cycle_.reset();
     if (balance == nullptr) report_.freeze = AdaptationFreeze::gap;
     speed_ = balance == nullptr ? 0 : std::abs(balance->speed);
@@ -88,8 +81,11 @@ void AxisAdaptation::step(const AxisBalance* balance, AdaptationFreeze reason, L
 void AxisAdaptation::learn(const AxisBalance& balance, LevelFilter& filter) noexcept {
   const std::size_t direction = direction_of(balance.speed);
   if (speed_ <= zero_band_) return rest(balance, filter);
-  if (rest_ticks_ >= kRest_ticks) break_away(direction, filter);
-  rest_ticks_ = 0;
+  if (break_away_.rested() && held_ == AdaptationFreeze::none &&
+      report_.direction[direction].blocks >= kLeastBlocks &&
+      break_away_.learn(direction, filter.coulomb_v(axis_, direction).value, filter.scatter_v(axis_)))
+    ++report_.direction[direction].break_aways;
+  break_away_.leave_rest();
   if (speed_ <= kLearnBands * zero_band_) {
     leave_block();
     skipped_ticks_ = 0;
@@ -114,40 +110,9 @@ void AxisAdaptation::rest(const AxisBalance& balance, const LevelFilter& filter)
   leave_block();
   skipped_ticks_ = 0;
   if (held_ == AdaptationFreeze::none) report_.freeze = AdaptationFreeze::standstill;
-  const auto slot = static_cast<std::size_t>(rest_ticks_ % kHistory);
-  resting_v_[slot] = filter.friction_v(
+  const double friction_v = filter.friction_v(
       axis_, {.free_v = balance.free_v, .load_vpkg = balance.load_vpkg, .inertia_v = balance.inertia_v});
-  creeping_[slot] = speed_ <= kCreepBands * zero_band_;
-  ++rest_ticks_;
-}
-
-/// The largest friction while the axis hardly moved, as a mean over kMean_ticks, minus the scatter of such a
-/// mean.
-void AxisAdaptation::break_away(std::size_t direction, const LevelFilter& filter) noexcept {
-  if (held_ != AdaptationFreeze::none || report_.direction[direction].blocks < kLeastBlocks) return;
-  const int known = std::min(rest_ticks_, kHistory);
-  const double side = direction == 0 ? 1 : -1;
-  double largest = -1e9;
-  for (int i = 0; i + kMean_ticks <= known; ++i) {
-    double mean = 0;
-    bool creeps = true;
-    for (int j = 0; j < kMean_ticks; ++j) {
-      const auto slot = static_cast<std::size_t>((rest_ticks_ - 1 - i - j) % kHistory);
-      mean += side * resting_v_[slot] / kMean_ticks;
-      creeps = creeps && creeping_[slot];
-    }
-    if (creeps) largest = std::max(largest, mean);
-  }
-  largest -= kMeanScatter * filter.scatter_v(axis_);
-  if (largest < (1 - share_) * file_[direction].static_v) return;  // a fast step shows no break-away level
-  Excess& excess = excess_[direction];
-  const double error = largest - filter.coulomb_v(axis_, direction).value - excess.value_v;
-  const double variance = excess.variance + squared_v(kBreakAway_v);
-  if (squared_v(error) > 25 * variance) return;
-  const double gain = excess.variance / variance;
-  excess.value_v = std::max(0.0, excess.value_v + gain * error);
-  excess.variance = std::max((1 - gain) * excess.variance, squared_v(kBreakAway_v / 4));
-  ++report_.direction[direction].break_aways;
+  break_away_.rest(friction_v, speed_);
 }
 
 void AxisAdaptation::finish_block(LevelFilter& filter) noexcept {
@@ -185,7 +150,7 @@ bool AxisAdaptation::excited(std::size_t direction, const LevelFilter& filter) c
 FrictionLevels AxisAdaptation::wanted(std::size_t direction, const LevelFilter& filter) const noexcept {
   const FrictionLevels& file = file_[direction];
   const Estimated c = filter.coulomb_v(axis_, direction), b = filter.viscous_vspm(axis_, direction);
-  const Excess& excess = excess_[direction];
+  const BreakAway::Excess& excess = break_away_.excess(direction);
   const double lowest = 1 - share_, highest = std::min(1 + share_, ceiling_[direction]);
   FrictionLevels levels;
   levels.coulomb_v =
@@ -297,8 +262,9 @@ void AxisAdaptation::describe(const LevelFilter& filter) noexcept {
   for (std::size_t d = 0; d < 2; ++d) {
     const Estimated c = filter.coulomb_v(axis_, d), b = filter.viscous_vspm(axis_, d);
     DirectionReport& shown = report_.direction[d];
-    shown.estimate = {c.value, b.value, c.value + excess_[d].value_v};
-    shown.deviation = {c.deviation, b.deviation, std::sqrt(squared_v(c.deviation) + excess_[d].variance)};
+    const BreakAway::Excess& excess = break_away_.excess(d);
+    shown.estimate = {c.value, b.value, c.value + excess.value_v};
+    shown.deviation = {c.deviation, b.deviation, std::sqrt(squared_v(c.deviation) + excess.variance)};
     shown.used = used_[d];
     const double prior = filter.prior_coulomb_deviation(axis_, d);
     if (prior > 0) known += std::clamp(1 - c.deviation / prior, 0.0, 1.0) / 2;

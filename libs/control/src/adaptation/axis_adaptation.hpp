@@ -4,6 +4,7 @@
 ///   installation at rest: the levels of the excited directions, at the end of a move
 ///   return to the previous set: when the next move contradicts the installed set, or when the axis
 ///   oscillates about its rest
+#include "adaptation/break_away.hpp"
 #include "adaptation/force_balance.hpp"
 #include "adaptation/level_filter.hpp"
 #include "adaptation/limit_cycle.hpp"
@@ -26,12 +27,8 @@ class AxisAdaptation {
 
  private:
   using Set = std::array<FrictionLevels, 2>;  ///< positive, negative
-  struct Excess {                             ///< of the break-away level over the Coulomb level
-    double value_v = 0, variance = 0;
-  };
   void learn(const AxisBalance& balance, LevelFilter& filter) noexcept;
   void rest(const AxisBalance& balance, const LevelFilter& filter) noexcept;
-  void break_away(std::size_t direction, const LevelFilter& filter) noexcept;
   void finish_block(LevelFilter& filter) noexcept;
   void leave_block() noexcept { block_ticks_ = 0, block_ = {}; }
   void lower(std::size_t direction, double speed, const LevelFilter& filter) noexcept;
@@ -47,18 +44,14 @@ class AxisAdaptation {
   double zero_band_, share_, viscous_share_, period_s_, gain_;
   DriveFriction friction_;  ///< with the used levels
   Set file_, used_, target_, good_;
-  std::array<Excess, 2> excess_;
+  BreakAway break_away_;
   std::array<double, 2> ceiling_{};  ///< largest levels, share of the rig file's
   LimitCycle limit_cycle_;
   Block block_;
   int block_ticks_ = 0, skipped_ticks_ = 0;
   std::size_t block_direction_ = 0;
   int refused_in_a_row_ = 0, excess_blocks_ = 0;
-  int rest_ticks_ = 0;
-  static constexpr int kHistory = 12;
-  std::array<double, kHistory> resting_v_{};  ///< friction of the last ticks within the zero band
-  std::array<bool, kHistory> creeping_{};     ///< true: the axis hardly moved at this tick
-  double speed_ = 0;                          ///< magnitude
+  double speed_ = 0;  ///< magnitude
   bool moves_ = false;
   double used_squares_ = 0, good_squares_ = 0;
   int judged_blocks_ = 0, frozen_moves_ = 0;
