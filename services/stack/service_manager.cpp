@@ -32,7 +32,9 @@ void ServiceManager::notify(std::string_view message) const {
   if (to.sun_path[0] == '@') to.sun_path[0] = '\0';  // abstract
   const int sender = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (sender < 0) return;
-  ::sendto(sender, message.data(), message.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&to),
+  // A manager that does not read must not delay the stop of the stack.
+  ::sendto(sender, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
+           reinterpret_cast<const sockaddr*>(&to),
            static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length));
   ::close(sender);
 }

@@ -8,6 +8,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/plant_option.hpp"
 #include "cli/recording_limits.hpp"
+#include "cli/stop_guard.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/runtime/node.hpp"
 #include "crane/supervisor/component.hpp"
@@ -162,6 +163,7 @@ int up(UpOptions options) {
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
   runtime::refuse_second_writer(bus, supervisor::supervisor_spec().writes);
+  StopGuard guard;
   stack::ChildProcesses children;
   if (plant == stack::Plant::hardware) stack::launch_rig(children, rig, options.launch);
   if (options.in_process)
@@ -190,6 +192,7 @@ int up(UpOptions options) {
   stack::ServiceManager manager;
   manager.ready();
   const bool orderly = watch(children, dashboard, node, manager);
+  guard.stopping();
   manager.stopping();
   children.stop();
   return orderly ? runtime::kExitDone : runtime::kExitFailed;
