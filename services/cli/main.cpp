@@ -24,16 +24,57 @@ constexpr const char* kFooter = R"(A first session, while `crane up` runs in ano
 Exit code: 0 done, 1 failed (the reason is on standard error), 2 bad arguments or files.
 `crane COMMAND --help` explains a command.)";
 
+struct Command {
+  void (*add)(CLI::App& app, cli::Action& chosen);  ///< adds one subcommand
+  const char* group;                                ///< heading of --help
+};
+
 /// All commands in the order of --help.
-constexpr std::array kCommands{
-    cli::add_up,        cli::add_demo,       cli::add_run,       cli::add_sweep,    cli::add_identify,
-    cli::add_tune,      cli::add_diagnose,   cli::add_status,    cli::add_top,      cli::add_scope,
-    cli::add_reset,     cli::add_home,       cli::add_arm,       cli::add_disarm,   cli::add_mode,
-    cli::add_move,      cli::add_jog,        cli::add_stop,      cli::add_estop,    cli::add_topic,
-    cli::add_graph,     cli::add_doctor,     cli::add_dashboard, cli::add_record,   cli::add_play,
-    cli::add_black_box, cli::add_review,     cli::add_replay,    cli::add_log,      cli::add_analyse,
-    cli::add_hw,        cli::add_keys,       cli::add_bench,     cli::add_campaign, cli::add_supervisor,
-    cli::add_zone,      cli::add_completion, cli::add_man};
+constexpr std::array kCommands{Command{cli::add_up, "Operate"},
+                               Command{cli::add_demo, "Operate"},
+                               Command{cli::add_status, "Operate"},
+                               Command{cli::add_reset, "Operate"},
+                               Command{cli::add_home, "Operate"},
+                               Command{cli::add_arm, "Operate"},
+                               Command{cli::add_move, "Operate"},
+                               Command{cli::add_jog, "Operate"},
+                               Command{cli::add_stop, "Operate"},
+                               Command{cli::add_estop, "Operate"},
+                               Command{cli::add_disarm, "Operate"},
+                               Command{cli::add_mode, "Operate"},
+                               Command{cli::add_zone, "Operate"},
+                               Command{cli::add_top, "Observe"},
+                               Command{cli::add_topic, "Observe"},
+                               Command{cli::add_scope, "Observe"},
+                               Command{cli::add_graph, "Observe"},
+                               Command{cli::add_dashboard, "Observe"},
+                               Command{cli::add_doctor, "Observe"},
+                               Command{cli::add_supervisor, "Observe"},
+                               Command{cli::add_black_box, "Record"},
+                               Command{cli::add_review, "Record"},
+                               Command{cli::add_record, "Record"},
+                               Command{cli::add_play, "Record"},
+                               Command{cli::add_replay, "Record"},
+                               Command{cli::add_log, "Record"},
+                               Command{cli::add_run, "Experiment"},
+                               Command{cli::add_sweep, "Experiment"},
+                               Command{cli::add_analyse, "Experiment"},
+                               Command{cli::add_campaign, "Experiment"},
+                               Command{cli::add_bench, "Experiment"},
+                               Command{cli::add_identify, "Learn from measured data"},
+                               Command{cli::add_tune, "Learn from measured data"},
+                               Command{cli::add_diagnose, "Learn from measured data"},
+                               Command{cli::add_hw, "Set up"},
+                               Command{cli::add_keys, "Set up"},
+                               Command{cli::add_completion, "Set up"},
+                               Command{cli::add_man, "Set up"}};
+
+void add_commands(CLI::App& app, cli::Action& chosen) {
+  for (const Command& command : kCommands) {
+    command.add(app, chosen);
+    app.get_subcommands({}).back()->group(command.group);
+  }
+}
 
 /// Logs go to standard error; standard output contains only the result of a command.
 void log_to_standard_error() {
@@ -69,7 +110,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "crane " CRANE_VERSION);
   app.footer(kFooter);
   cli::Action chosen;
-  for (const auto add : kCommands) add(app, chosen);
+  add_commands(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -56,7 +56,7 @@ Options default_options() {
 void add_options(CLI::App& app, Options& options) {
   app.add_option(
          "--listen", options.listen,
-         "address to serve on; 0.0.0.0: every address: anyone who can reach this computer may then watch")
+         "address to serve on; with 0.0.0.0 (every address), anyone who can reach this computer may watch")
       ->capture_default_str();
   app.add_option("--port", options.port, "TCP port for page, viewers, /api and /metrics; 0: any free port")
       ->capture_default_str();

@@ -183,7 +183,7 @@ void add_hw_selftest(CLI::App& hw, Action& chosen) {
   command.footer(
       "Required: the crane is at [start] of the rig file, the load hangs at rest, and each axis has 10 cm\n"
       "(0.2 rad) of free travel.\n"
-      "Prints one line per fault; the exit code is then 1.\n"
+      "The command prints one line per fault. Exit code 1: at least one fault.\n"
       "Example: crane hw selftest --rig emulated_servo_to_go\n"
       "         crane hw selftest --rig emulated_servo_to_go --wired-as swapped.toml     (docs/hardware.md)");
 }

@@ -71,6 +71,7 @@ int check_keys(const std::string& directory) {
 
 CLI::App* add_keys_command(CLI::App& keys, const char* name, const char* summary, std::string& directory) {
   auto* command = keys.add_subcommand(name, summary);
+  command->footer("Example: crane keys " + std::string{name} + " keys");
   command->add_option("DIR", directory, "directory of keys")->required();
   return command;
 }

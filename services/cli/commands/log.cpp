@@ -143,7 +143,7 @@ void add_merge(CLI::App& log, Action& chosen, const SharedLogOptions& options) {
   command->footer(
       "Example: crane log merge first.mcap second.mcap both.mcap\n"
       "         crane log merge run.mcap joined.mcap        (run.mcap: the name of a split recording)\n"
-      "Refuses recordings with different schemas or rig files.");
+      "The command refuses recordings with different schemas or rig files.");
   command->callback([options, &chosen] { chosen = [options] { return run_log_action(merge, *options); }; });
 }
 
@@ -201,7 +201,7 @@ void add_log(CLI::App& app, Action& chosen) {
       add_log_command(*log, chosen, options, check, "check", "Read the whole file and verify every CRC");
   checked->add_flag("--json", options->json, "one JSON object");
   checked->footer(
-      "Example: crane log check run.mcap\nExit code 1 when anything is damaged.\n"
+      "Example: crane log check run.mcap\nExit code 1: the recording is damaged.\n"
       "Samples that the recorder did not receive or had to drop are listed as missing.");
   auto* repaired = add_log_command(*log, chosen, options, repair, "repair",
                                    "Copy the readable part of a damaged recording to a new file");

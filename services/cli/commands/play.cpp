@@ -138,7 +138,7 @@ void add_play(CLI::App& app, Action& chosen) {
   command->footer(
       "Example: crane play run.mcap --rate 0.5 --loop --crane playback\n"
       "         crane dashboard --crane playback\n"
-      "Refuses a bus on which a crane runs, and stops when one appears.");
+      "The command refuses a bus on which a crane runs, and stops when a crane appears.");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -122,8 +122,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option(
          "--sets", options.sets,
-         "total number of sets; of 12 sets of truth 3 are clean, 6 have one cause, 1 a pair, 1 a cause "
-         "outside the library, 1 confounded causes; of 20 sets of mujoco 5, 9, 2, 2, 2")
+         "total number of sets. Of 12 sets of truth, 3 are clean, 6 have one cause, 1 a pair, 1 a cause "
+         "outside the library, 1 confounded causes; of 20 sets of mujoco 5, 9, 2, 2 and 2")
       ->capture_default_str();
   app.add_option("--first-seed", options.first_seed,
                  "truth: seed of set 0, set k has this seed plus k; mujoco: seed of the deck")
@@ -134,12 +134,12 @@ int main(int argc, char** argv) {
   app.add_option("--results", options.results,
                  "file with one JSON line per set; sets that it contains are not repeated")
       ->capture_default_str();
-  app.add_flag("--quiet", options.quiet, "print only tables, nothing about single sets");
+  app.add_flag("--quiet", options.quiet, "print only the tables, no lines of single sets");
   app.add_option("--only", options.only, "diagnose only sets of this kind")
       ->check(CLI::IsMember({"clean", "single", "outside", "pair", "confounded"}));
   app.footer(
-      "Example: bench_diagnosis --sets 1200 --results score.jsonl\n"
-      "         bench_diagnosis --sets 0 --results score.jsonl        only prints the tables");
+      "Examples: crane bench diagnosis --sets 1200 --results score.jsonl\n"
+      "          crane bench diagnosis --sets 0 --results score.jsonl        only prints the tables");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
