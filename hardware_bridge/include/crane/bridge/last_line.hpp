@@ -70,7 +70,7 @@ inline constexpr std::size_t kReasons = 15;
 struct AxisLine : control::DriveLimits {
   double certain_motion_v = 5;   ///< a larger voltage moves the axis against any friction and load, V
   double creeping_motion_v = 2;  ///< as certain_motion_v, while the axis is being homed, V
-  /// a gain of speed beyond this and the commands is a fault of the drive, V
+  /// Voltage beyond the commands. A gain of speed that needs more counts as a fault of the drive, V.
   double response_margin_v = 2.5;
   /// Smallest and largest gain: unit/s^2 per volt when lag_s is 0, otherwise unit/s per volt.
   double gain_low = 0;

@@ -4,8 +4,8 @@
 ///   DIR/identity_ca.pem       signs the certificates of all identities
 ///   DIR/permissions_ca.pem    signs governance and permissions
 ///   DIR/governance.smime      rules of the domain: authentication, encryption, access control
-///   DIR/private/              keys of both authorities, for `crane keys make` only; do not copy them to the
-///   rig DIR/ROLE/VENDOR/          certificate.pem, key.pem, permissions.smime of one identity
+///   DIR/private/              keys of both authorities for `crane keys make`; keep them off the rig
+///   DIR/ROLE/VENDOR/          certificate.pem, key.pem, permissions.smime of one identity
 ///
 /// A role has one identity per DDS implementation. The participant whose certificate has the subject with the
 /// lower hash starts the handshake. A handshake between Fast DDS and Cyclone DDS succeeds only when Cyclone
