@@ -83,7 +83,8 @@ void ViewerSession::accepted() {
   request_ = {};
   server_.join(shared_from_this());
   send_text(server_info("crane " + server_.model().about().crane, server_.session_id()));
-  send_text(advertise());
+  static const Bytes kChannels = bytes_of(advertise());  // 1 MB, the same for all viewers
+  put({.channel = 0, .keep = Keep::always, .binary = false, .head = {}, .payload = kChannels});
   flush();
   read();
 }
@@ -141,8 +142,11 @@ void ViewerSession::obey(const ClientMessage& message) {
 
 void ViewerSession::subscribe(const Subscribe& wanted) {
   for (const auto& [id, channel] : wanted.entries) {
+    if (!open_) return;
+    const bool begins = !subscriptions_.contains(channel);
     subscriptions_[channel] = id;
-    // Sends earlier data: the newest document, or the stored samples of a topic that is rarely written.
+    if (!begins) continue;
+    // Sends earlier data, once: the newest document, or the stored samples of a topic that is rarely written.
     if (channel > topics::kAll.size()) {
       const auto document = static_cast<Document>(channel - topics::kAll.size() - 1);
       if (const auto& text = server_.model().text(document); !text.empty())

@@ -156,6 +156,24 @@ TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNoOtherViewer) {
   EXPECT_TRUE(heard);
 }
 
+TEST_F(ServerTest, ASubscriptionThatIsRepeatedSendsTheStoredDataOnce) {
+  constexpr std::size_t kStored = 20, kEntries = 64;
+  server_.put(
+      std::vector<observation::SamplePtr>(kStored, sample_of(topics::event, msg::Event{}, kSecond_ns)));
+  auto viewer = view(kViewerProtocol);
+  const auto event = channel_of_topic(bus::index_of(topics::event.description.name));
+  const auto entries = std::vector<json>(kEntries, json{{"id", event}, {"channelId", event}});
+  viewer.write(asio::buffer(json{{"op", "subscribe"}, {"subscriptions", entries}}.dump()));
+  subscribe(viewer, channel_of(Document::seat));
+  std::size_t stored = 0;
+  for (std::string message;
+       message.size() < 2 || message[0] != 1 || message[1] == static_cast<char>(event);) {
+    message = read(viewer);
+    stored += message.size() > 1 && message[0] == 1 && message[1] == static_cast<char>(event);
+  }
+  EXPECT_EQ(stored, kStored);
+}
+
 TEST_F(ServerTest, AClientThatFloodsMessagesIsDisconnected) {
   auto viewer = view(kViewerProtocol);
   boost::system::error_code error;
