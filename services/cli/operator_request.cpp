@@ -47,6 +47,7 @@ class Conversation {
     wait_until(bus_, timeout_s, [&] {
       const auto now_ns = runtime::monotonic_ns();
       if (sent_.empty() || (may_be_repeated(wanted_.kind) && now_ns >= repeat_at_ns)) {
+        hear_supervisor();
         sent_.push_back(client_.send(wanted_));
         repeat_at_ns = now_ns + kRepeat_ns;
       }
@@ -66,6 +67,12 @@ class Conversation {
                                            "`systemctl stop crane`)"
                                          : "";
   }
+  void hear_supervisor() {
+    while (const auto status = supervisor_.take()) {
+      heard_supervisor_ = true;
+      wanted_.seen_tick = status->header.tick;
+    }
+  }
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
   /// Several processes read crane/request: the plant, the supervisor, recorders, dashboards. A request that
@@ -73,7 +80,7 @@ class Conversation {
   /// has arrived.
   bool found() {
     constexpr std::int64_t kProbeEvery_ns = 50'000'000;
-    while (supervisor_.take()) heard_supervisor_ = true;
+    hear_supervisor();
     while (planner_ && planner_->take()) heard_reference_ = true;
     if (client_.listeners() == 0 || client_.answerers() == 0) return false;
     if (may_be_repeated(wanted_.kind)) return true;
@@ -96,7 +103,7 @@ class Conversation {
   }
 
   bus::Bus& bus_;
-  const stack::OperatorRequest& wanted_;
+  stack::OperatorRequest wanted_;
   stack::OperatorClient client_;
   bus::Subscriber<msg::SupervisorStatus> supervisor_;
   std::optional<bus::Subscriber<msg::Reference>> planner_;

@@ -19,7 +19,8 @@ constexpr std::int64_t kRepeat_ns = 100'000'000;  ///< a stop is repeated until 
 }  // namespace
 
 RequestSender::RequestSender(bus::Bus& bus)
-    : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()} {}
+    : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()},
+      statuses_{bus.subscriber(topics::supervisor)} {}
 
 void RequestSender::send(const stack::OperatorRequest& wanted, Answered answered) {
   if (is_stop(wanted.kind)) {
@@ -71,6 +72,8 @@ void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   constexpr std::size_t kRepetitionsPerWriter = 4;
   try {
     if (!pending.ids.empty() && pending.ids.size() % kRepetitionsPerWriter == 0) client_.renew_writer();
+    while (const auto status = statuses_.take()) seen_tick_ = status->header.tick;
+    pending.wanted.seen_tick = seen_tick_;
     pending.ids.push_back(client_.send(pending.wanted));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {

@@ -40,6 +40,8 @@ class RequestSender {
   [[nodiscard]] Pending* same_stop(crane_RequestKind kind);
 
   stack::OperatorClient client_;
+  bus::Subscriber<msg::SupervisorStatus> statuses_;
+  std::uint64_t seen_tick_ = 0;  ///< of the newest status; 0: none has arrived
   std::list<Pending> pending_;
 };
 

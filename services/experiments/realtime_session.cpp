@@ -62,7 +62,10 @@ void RealtimeSession::wait(std::chrono::nanoseconds duration) {
 }
 
 std::string RealtimeSession::refusal_of(const stack::OperatorRequest& wanted, const std::string& what) {
-  const auto id = operator_.send(wanted);
+  take(std::chrono::nanoseconds{0});
+  auto seen = wanted;
+  if (state_) seen.seen_tick = state_->header.tick;
+  const auto id = operator_.send(seen);
   std::optional<msg::Reply> reply;
   if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },
              std::chrono::seconds{2}))

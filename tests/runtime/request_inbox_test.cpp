@@ -18,6 +18,7 @@ class Inbox : public testing::Test {
     msg::Request request{};
     request.id = id;
     request.kind = kind;
+    request.header.tick = seen_tick_;
     request.apply_tick = apply_tick;
     ASSERT_TRUE(requests_.publish(request));
   }
@@ -27,6 +28,7 @@ class Inbox : public testing::Test {
     return count;
   }
 
+  std::uint64_t seen_tick_ = 0;
   Clock clock_;
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus operator_{memory_options(network_, "operator", crane_SOURCE_OPERATOR)};
@@ -116,6 +118,37 @@ TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOp
   inbox_.receive();
   EXPECT_EQ(refusals(), 1U);
   for (std::uint64_t tick = 1; tick < 30; ++tick) EXPECT_FALSE(inbox_.take_due(tick));
+}
+
+/// A connection that was lost for some seconds delivers a request after its operator has given up.
+TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterItsOperatorSawTheCrane) {
+  constexpr std::uint64_t kSeen = 1000, kTwoSeconds = 200;
+  seen_tick_ = kSeen;
+  for (const auto tick : {kSeen - kTwoSeconds - 1, kSeen + kTwoSeconds + 1}) {
+    send(1, 0, crane_REQUEST_ARM);
+    inbox_.receive();
+    EXPECT_FALSE(inbox_.take_due(tick)) << tick;
+    EXPECT_EQ(refusals(), 1U);
+  }
+  for (const auto tick : {kSeen - kTwoSeconds, kSeen + kTwoSeconds}) {
+    send(2, 0, crane_REQUEST_ARM);
+    inbox_.receive();
+    EXPECT_TRUE(inbox_.take_due(tick)) << tick;
+  }
+}
+
+TEST_F(InboxInRealTime, AStopActsHoweverOldItIs) {
+  seen_tick_ = 1;
+  send(1, 0);
+  inbox_.receive();
+  EXPECT_TRUE(inbox_.take_due(1'000'000));
+}
+
+TEST_F(Inbox, InLockstepHasNoAgeLimitBecauseTimePassesOnlyWithTheTicks) {
+  seen_tick_ = 1;
+  send(1, 0, crane_REQUEST_ARM);
+  inbox_.receive();
+  EXPECT_TRUE(inbox_.take_due(10'000));
 }
 
 TEST_F(InboxInRealTime, AStopForALaterTickActsAtOnce) {

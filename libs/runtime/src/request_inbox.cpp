@@ -1,6 +1,7 @@
 #include "crane/runtime/request_inbox.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "crane/runtime/node.hpp"
 
@@ -16,6 +17,7 @@ bool stops(const msg::Request& request) {
 
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
     : schedules_{context.clock != Clock::realtime},
+      longest_age_ticks_{static_cast<std::uint64_t>(std::llround(kLongestAge_s / context.rig.period_s))},
       requests_{context.ports.input(topics::request)},
       replies_{context.ports.output(topics::reply)},
       kinds_{kinds} {}
@@ -48,9 +50,21 @@ bool RequestInbox::receive() {
   return any;
 }
 
-void RequestInbox::refuse_too_late(std::uint64_t tick) {
+/// A lost connection delays a request until the middleware can send it again, at most for the lease.
+bool RequestInbox::is_old(const msg::Request& request, std::uint64_t tick) const {
+  const auto seen = request.header.tick;
+  if (schedules_ || seen == 0 || stops(request)) return false;
+  return (tick > seen ? tick - seen : seen - tick) > longest_age_ticks_;
+}
+
+void RequestInbox::refuse_untimely(std::uint64_t tick) {
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     const auto& request = waiting.request;
+    if (is_old(request, tick)) {
+      reply(request, request.header, false,
+            "the request has arrived more than 2 s after its operator saw the crane: repeat it");
+      return true;
+    }
     const bool too_late = request.apply_tick > tick && request.apply_tick - tick > kFarthest_ticks;
     if (too_late) reply(request, request.header, false, "apply_tick is more than 1000000 ticks ahead");
     return too_late;
@@ -58,7 +72,7 @@ void RequestInbox::refuse_too_late(std::uint64_t tick) {
 }
 
 std::optional<msg::Request> RequestInbox::take_due(std::uint64_t tick, bus::ParticipantId* sender) {
-  refuse_too_late(tick);
+  refuse_untimely(tick);
   const auto due = std::find_if(waiting_.begin(), waiting_.end(),
                                 [tick](const Waiting& w) { return w.request.apply_tick <= tick; });
   if (due == waiting_.end()) return std::nullopt;

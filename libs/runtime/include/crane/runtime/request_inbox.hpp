@@ -20,6 +20,9 @@ class RequestInbox {
   static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
+  /// In real time, a request whose header.tick differs by more than this from the present tick is refused:
+  /// the operator tools wait as long for an answer. Afterwards their operator does not expect a motion.
+  static constexpr double kLongestAge_s = 2;
 
   /// @param kinds  kinds of request that this process executes; it ignores all others
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
@@ -33,7 +36,8 @@ class RequestInbox {
   bool receive();
   /// @param sender  participant that sent the request
   /// @return the next request that is due at `tick`, in the order of arrival; nothing when there is none.
-  ///   Refuses requests that are due later than kFarthest_ticks after `tick`
+  ///   Refuses requests that are due later than kFarthest_ticks after `tick`, and in real time requests older
+  ///   than kLongestAge_s that do not stop the crane
   [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick,
                                                      bus::ParticipantId* sender = nullptr);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);
@@ -43,9 +47,11 @@ class RequestInbox {
     msg::Request request;
     bus::ParticipantId sender;
   };
-  void refuse_too_late(std::uint64_t tick);
+  [[nodiscard]] bool is_old(const msg::Request& request, std::uint64_t tick) const;
+  void refuse_untimely(std::uint64_t tick);
 
   bool schedules_;  ///< lockstep: requests may wait for their tick
+  std::uint64_t longest_age_ticks_;
   bus::Subscriber<msg::Request> requests_;
   Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
