@@ -28,9 +28,19 @@ RealtimeSession::RealtimeSession(bus::Bus& bus, std::function<void()> meanwhile)
       references_{bus.subscriber(topics::reference)},
       demands_{bus.subscriber(topics::demand)},
       statuses_{bus.subscriber(topics::supervisor)} {
-  const bool found =
-      until([this] { return operator_.listeners() >= 2 && operator_.answerers() >= 1 && status_; },
-            std::chrono::seconds{5});
+  // Recorders read crane/request, too: only an answer shows that the supervisor has found this session.
+  constexpr std::int64_t kProbeEvery_ns = 50'000'000;
+  std::int64_t probe_at_ns = 0;
+  const auto is_answered = [&] {
+    if (operator_.listeners() < 2 || operator_.answerers() < 1 || !status_) return false;
+    if (operator_.take_reply(stack::OperatorClient::kProbe, crane_SOURCE_SUPERVISOR)) return true;
+    if (const auto now_ns = runtime::monotonic_ns(); now_ns >= probe_at_ns) {
+      operator_.probe();
+      probe_at_ns = now_ns + kProbeEvery_ns;
+    }
+    return false;
+  };
+  const bool found = until(is_answered, std::chrono::seconds{5});
   if (!found) throw SessionError("no supervisor found in this domain");
 }
 
