@@ -18,10 +18,6 @@ constexpr int kMostRounds = 12;  // of Gauss-Newton
 /// values of one effect alone, and while the loss exceeds `loss_to_beat`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
-/// A round that achieves this share of the predicted decrease leaves its slopes to the next one: the slopes
-/// of twenty values take forty simulations, a step takes one. Only a round with the slopes of its own point
-/// ends a fit.
-constexpr double kFaithful = 0.5;
 /// A round that decreases the Cauchy loss by less is the last one.
 constexpr double kLeastGain = 0.3;
 /// The same for the sum of squares, relative to the sum.
@@ -126,10 +122,9 @@ double total_loss(const Evaluation& at, Loss loss) {
 bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
                     std::size_t apart) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
-  bool at_best = true;  // `along` belongs to `best`, not to an earlier point
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!along) along = slopes(best.effects, best.train), at_best = true;
-    if (at_best && round >= kLeastRounds &&
+    if (!along) along = slopes(best.effects, best.train);
+    if (round >= kLeastRounds &&
         best.train.loss - kDecreaseMargin * predicted_decrease(block_scores(best.train, *along)) >
             loss_to_beat)
       return false;
@@ -151,6 +146,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
           least = now;
           best.effects = tried;
           best.train = std::move(found);
+          along.reset();
           damping = std::max(1e-6, damping * 0.2);
         } else {
           damping = std::max(damping, 1e-4) * 8;
@@ -158,15 +154,8 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
       }
       if (gained == 0) damping = kFirstDamping;
     }
-    const bool ends = gained < (loss == Loss::robust ? kLeastGain : kLeastRelativeGain * least);
-    if (ends && at_best) {
-      if (gained > 0) along.reset();
-      return true;
-    }
-    at_best = false;
-    if (ends || gained < kFaithful * predicted_decrease(both)) along.reset();
+    if (gained < (loss == Loss::robust ? kLeastGain : kLeastRelativeGain * least)) break;
   }
-  along.reset();
   return true;
 }
 
