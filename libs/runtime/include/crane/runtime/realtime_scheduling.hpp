@@ -14,7 +14,7 @@ class RealtimeScheduling {
   RealtimeScheduling(const RealtimeScheduling&) = delete;
   RealtimeScheduling& operator=(const RealtimeScheduling&) = delete;
   /// Returns all threads to ordinary scheduling. The system frees the memory of a process with the priority
-  /// of that process, and the locked memory of six processes occupies two processors for 40 ms. With the
+  /// of that process, and the locked memory of six processes occupies two processors for 30 ms. With the
   /// priority of a loop, this would stop another crane on the same computer.
   ~RealtimeScheduling();
 
