@@ -57,7 +57,7 @@ Crane with_drive(Crane crane, std::size_t axis, const std::vector<double>& v) {
 }
 
 /// Delayed command by row. In the term command_delay a fraction of a tick acts on the mean of the tick;
-/// therefore the model gets whole ticks, not the steps of the replay.
+/// therefore the model gets whole ticks, not the steps of the simulation.
 std::vector<plant::PerAxis> delayed(const std::vector<plant::PerAxis>& command_v,
                                     const configuration::Rig& rig, std::size_t axis, double delay_s) {
   plant::Model model{
@@ -165,9 +165,9 @@ FitResult fit_drive(const recording::Table& table, const configuration::Rig& rig
   return *best;
 }
 
-/// Error of the replay itself (steps of 5 ms, smoothed swing), which the residuals do not show. Its square is
-/// added to that of the standard error. Measured: about the rms error of the estimates of hidden rigs
-/// (docs/tune.md); Long.StandardErrorsMatchTheSpread prints the errors in units of the sum.
+/// Error of the simulation itself (steps of 5 ms, smoothed swing), which the residuals do not show. Its
+/// square is added to that of the standard error. Measured: about the rms error of the estimates of hidden
+/// rigs (docs/tune.md); Long.StandardErrorsMatchTheSpread prints the errors in units of the sum.
 struct ModelError {
   double share = 0;     ///< of the value
   double absolute = 0;  ///< in its unit

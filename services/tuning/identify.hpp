@@ -12,7 +12,7 @@
 
 namespace crane::tuning {
 
-/// A motion as the replay of plant/diagnosis reads it. @throws identification::IdentificationError when a
+/// A motion as the simulations of plant/diagnosis read it. @throws identification::IdentificationError when a
 /// column or a tick is missing
 [[nodiscard]] diagnosis::PreparedRun prepared(const recording::Table& table, const configuration::Rig& rig);
 

@@ -1,4 +1,4 @@
-/// The adaptation on line in closed loop: convergence from a wrong friction compensation, hostile situations,
+/// The online adaptation in closed loop: convergence from a wrong friction compensation, hostile situations,
 /// what freezes it, and what it never does. Random values come from the seeds in the names of the failures.
 #include "crane/control/adaptation.hpp"
 

@@ -1,4 +1,4 @@
-/// crane-truth: measured data of a crane with hidden effects, for tests and benchmarks of the diagnosis.
+/// crane-truth: measured data of a crane with hidden causes, for tests and benchmarks of the diagnosis.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -51,7 +51,7 @@ void print_size(const truth::Case& request) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Writes measured data of a crane with hidden effects (train_N.csv, test_N.csv) and the sealed answer "
+      "Writes measured data of a crane with hidden causes (train_N.csv, test_N.csv) and the sealed answer "
       "(answer.json).\nExample: crane-truth --effect command_delay@trolley:2 --seed 7 --out data"};
   truth::Case request;
   std::vector<std::string> effects;
@@ -69,8 +69,9 @@ int main(int argc, char** argv) {
   app.add_option("--disturbance", request.disturbance, "multiple of the usual disturbance")
       ->check(CLI::Range(0.0, 100.0));
   app.add_flag("--clean", clean, "no sensor noise, no rounding");
-  app.add_flag("--size", size, "also print the deviations by effects and by disturbance, in windows of 2 s");
-  app.add_flag("--list", listed, "print effects and runs");
+  app.add_flag("--size", size,
+               "also print the deviations by the causes and by the disturbance, in windows of 2 s");
+  app.add_flag("--list", listed, "print causes and runs");
   app.add_option("--out", out, "directory of the files");
   try {
     app.parse(argc, argv);

@@ -28,7 +28,7 @@ inline constexpr Rule kLeastBeside{
     "least_change_beside", 0.09, "1",
     "minimum change of an output by a further cause / largest change of this output by another cause of the "
     "same hypothesis",
-    "square root of indistinct: the form of a term deviates from its effect by this share"};
+    "square root of indistinct: the equation of a term describes a crane with an error of this share"};
 
 // Choice among hypotheses with the same number of causes (verdict/judgement.cpp, search/compare.cpp).
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
@@ -41,7 +41,7 @@ inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
                                   "which both count as equal",
                                   "as pattern: the equations of the terms leave this share of the loss"};
 
-// Effects within the accuracy of the rig file (verdict/stated_accuracy.cpp).
+// Inaccuracies of the rig file (verdict/stated_accuracy.cpp).
 inline constexpr Rule kBeyondAccuracy{
     "beyond_accuracy", 1.96, "standard deviations",
     "minimum distance of a value from the stated accuracy of its quantity, for a cause",

@@ -77,10 +77,10 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
         table.add({cause.name, cause.axis, e.name, rounded(e.value), rounded(e.std_dev), e.unit});
     table.print(std::cout);
   }
-  for (const auto& effect : diagnosis.within_accuracy)
-    std::cout << "within the accuracy of the rig file: " << effect.name
-              << (effect.axis.empty() ? "" : " (" + effect.axis + ")") << ", " << values_of(effect.parameters)
-              << '\n';
+  for (const auto& inaccuracy : diagnosis.within_accuracy)
+    std::cout << "within the accuracy of the rig file: " << inaccuracy.name
+              << (inaccuracy.axis.empty() ? "" : " (" + inaccuracy.axis + ")") << ", "
+              << values_of(inaccuracy.parameters) << '\n';
   for (const auto& quantity : diagnosis.calibrated)
     for (const auto& p : quantity.parameters)
       std::cout << "calibrated within the accuracy of the rig file: " << quantity.name
@@ -174,7 +174,7 @@ void add_accuracy(CLI::App& command, diagnosis::Accuracy& accuracy) {
       .add_option(
           "--accuracy", accuracy.values,
           "accuracy of gains, lengths, masses and scales in the rig file, as a share of the value; the "
-          "report lists smaller effects, which do not change the verdict")
+          "report lists smaller errors, which do not change the verdict")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command
@@ -218,9 +218,9 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       ->capture_default_str();
   add_accuracy(*command, options->accuracy);
   command->add_option("--seed", options->seed, "seed of the random resampling")->capture_default_str();
-  command->add_flag(
-      "--check", options->check,
-      "give no verdict; report the smallest detectable size of each cause, and the motion to record next");
+  command->add_flag("--check", options->check,
+                    "give no verdict; report the smallest detectable size of each candidate, and the motion "
+                    "to record next");
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--progress", options->progress, "print lines \"progress SHARE TEXT\" on standard error");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");

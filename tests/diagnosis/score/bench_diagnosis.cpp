@@ -1,4 +1,4 @@
-/// `crane bench diagnosis`: scores the diagnosis on data with hidden effects. Not a test: prints tables.
+/// `crane bench diagnosis`: scores the diagnosis on data with hidden causes. Not a test: prints tables.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -111,7 +111,7 @@ int score(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{
-      "Diagnose generated data with known, hidden effects, and print the table of targets. The generators\n"
+      "Diagnose generated data with known, hidden causes, and print the table of targets. The generators\n"
       "share no code with the diagnosis. Each set adds one JSON line to the file of --results; sets that "
       "the\n"
       "file already contains are omitted, so that a run can be interrupted, continued and extended."};

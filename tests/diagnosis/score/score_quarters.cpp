@@ -70,7 +70,7 @@ std::string quarters_of(const std::vector<Record>& records) {
   if (names.empty()) return "";
   std::ostringstream text;
   text << "\nQuarters of each nuisance; right: up to a confounded group\n\n"
-       << "| nuisance | from | to | right, all sets | right, one effect | false alarms "
+       << "| nuisance | from | to | right, all sets | right, one cause | false alarms "
           "|\n|---|---|---|---|---|---|\n";
   Worst worst;
   for (const std::string& name : names) {

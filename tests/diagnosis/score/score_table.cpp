@@ -81,7 +81,7 @@ void add_rest(const Records& all, Targets& table) {
             share(static_cast<std::size_t>(std::count_if(
                       all.begin(), all.end(), [](const Record& r) { return r.judged == "failed"; })),
                   all.size()));
-  table.row("sets with effects below the detection limit, not judged", "–",
+  table.row("sets with causes below the detection limit, not judged", "–",
             std::to_string(std::count_if(all.begin(), all.end(), [](const Record& r) {
               return r.kind != name_of(Kind::clean) && r.judged != "no data" && r.multiple == 0;
             })));
@@ -91,11 +91,10 @@ void add_rest(const Records& all, Targets& table) {
             share(count(outside, {Judged::right}), outside.size()));
   table.row("outside the library: falsely named", "≤ 5 %",
             share(count(outside, {Judged::wrong}), outside.size()));
-  table.row("two effects: both", "≥ 85 %",
-            share(count(pairs, {Judged::right, Judged::beside}), pairs.size()));
-  table.row("two effects: both up to a confounded group", "–",
+  table.row("two causes: both", "≥ 85 %", share(count(pairs, {Judged::right, Judged::beside}), pairs.size()));
+  table.row("two causes: both up to a confounded group", "–",
             share(count(pairs, {Judged::right, Judged::beside, Judged::group}), pairs.size()));
-  table.row("two effects: at least one up to a confounded group", "≥ 97 %",
+  table.row("two causes: at least one up to a confounded group", "≥ 97 %",
             share(count(pairs, {Judged::right, Judged::beside, Judged::group, Judged::partly, Judged::among}),
                   pairs.size()));
   table.row("confounded: ambiguous or right", "≥ 95 %",

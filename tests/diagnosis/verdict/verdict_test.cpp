@@ -42,7 +42,7 @@ TEST(Sentence, NamesTheCauseInDoubt) {
             "actuator_lag, command_offset.");
 }
 
-/// An inaccuracy at its bound may hide a larger one or an effect without a term.
+/// An inaccuracy at its bound may hide a larger one or a cause without a term.
 TEST(Sentence, NamesCalibratedValuesAtTheBoundOfTheStatedAccuracy) {
   Diagnosis diagnosis = of(Verdict::none, {});
   diagnosis.calibrated = {{"motor_gain", "slew", {{"factor", "1", 1.013, 1, 0.02}}},
@@ -53,7 +53,7 @@ TEST(Sentence, NamesCalibratedValuesAtTheBoundOfTheStatedAccuracy) {
   EXPECT_EQ(sentence_of(diagnosis),
             "These data show no error of the model beyond the accuracy of the rig file. At the bound of the "
             "stated accuracy: direction_asymmetry (trolley) viscous_vspm, cable_length delta_m. The accuracy "
-            "of the rig file may be lower than stated, or an effect without a term may be the cause.");
+            "of the rig file may be lower than stated, or the true cause may have no term.");
   diagnosis.calibrated.resize(1);
   EXPECT_EQ(sentence_of(diagnosis),
             "These data show no error of the model beyond the accuracy of the rig file.");

@@ -13,7 +13,7 @@ namespace crane::diagnosis {
 /// Disturbance of each output, as learnt from the data.
 using Disturbances = std::array<Disturbance, kOutputs>;
 
-/// Disturbances of the outputs in the replays. An output without a measurement gets a noise of 1e6 m or rad,
+/// Disturbances of the simulated outputs. An output without a measurement gets a noise of 1e6 m or rad,
 /// so that it has no weight.
 [[nodiscard]] Disturbances disturbances_of(const Study& study);
 

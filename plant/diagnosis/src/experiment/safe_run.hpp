@@ -7,8 +7,8 @@
 
 namespace crane::diagnosis {
 
-/// The crane follows the motion under a position loop. The measurement is a replay of its commands, so that a
-/// replay with the same crane has no residual.
+/// The crane follows the motion under a position loop. The measurement is a simulation with its commands, so
+/// that a simulation of the same crane has no residual.
 /// @return nothing if the crane leaves the limits of travel or swing
 [[nodiscard]] std::optional<PreparedRun> safe_run(const configuration::Rig& rig, const Crane& crane,
                                                   const SafeMotion& motion);

@@ -55,7 +55,7 @@ struct Replay::CraneOnRun {
   int steps;                   ///< from a row to the next
   mutable plant::Model model;  // its memory is used by the constructor only
   bool sensors;
-  std::vector<std::size_t> ringing;  ///< inner coordinates that ring freely: part of the start
+  std::vector<std::size_t> ringing;  ///< inner coordinates that oscillate freely: part of the start
   std::array<bool, plant::kMostInner> prescribed{};  ///< the other ones
   std::vector<plant::PerAxis> drive_v;               ///< by step
   std::array<Motion, kOutputs> corrected;

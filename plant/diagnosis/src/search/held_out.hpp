@@ -10,8 +10,8 @@ namespace crane::diagnosis {
 [[nodiscard]] HeldOut held_out(const Study& study, const Study& as_measured, const Effects& effects,
                                std::uint64_t seed);
 
-/// Replays of the whole held-out runs: the drives from command and measured swing, the load from measured
-/// motion. Each replay begins at its best start.
+/// Drive and load simulation of the whole held-out runs, each from its best start: the drives from command
+/// and measured swing, the load from measured motion.
 /// @param as_measured as above
 [[nodiscard]] std::vector<Trace> traces(const Study& study, const Study& as_measured, const Effects& effects);
 

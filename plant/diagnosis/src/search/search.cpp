@@ -57,7 +57,7 @@ class Search {
         const std::size_t size = level.front().effects.size();
         if (size == 1) try_pairs(level);
         for (std::size_t i = 0; i < std::min(kBeam, level.size()); ++i) {
-          request_.progress(share_done(size, i), "search for a further effect");
+          request_.progress(share_done(size, i), "search for a further cause");
           const double p_value = extend(level[i], kExtensions);
           if (i == 0 && p_value > rules::kSignificant && found.best.deviance.size() >= kFewBlocks) break;
         }

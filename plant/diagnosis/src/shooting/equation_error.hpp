@@ -1,6 +1,6 @@
 #pragma once
 /// Equation error of the drives (pieces.hpp): a residual that does not depend on the time of stick and slip,
-/// in addition to the residual of the replay.
+/// in addition to the residual of the drive simulation.
 #include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
@@ -26,7 +26,7 @@ class EquationError {
                                                     double step) const;
   /// Sum of ln f of each piece.
   [[nodiscard]] std::vector<double> log_variances() const;
-  /// Window of the drives' replay that each piece belongs to.
+  /// Window of the drive simulation that each piece belongs to.
   [[nodiscard]] const std::vector<std::size_t>& windows() const { return windows_; }
 
  private:

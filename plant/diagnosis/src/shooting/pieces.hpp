@@ -5,7 +5,7 @@
 /// the measured speed, command and swing. This acceleration is integrated twice; the start is projected out.
 /// The pieces contain no stick, slip or standstill.
 ///
-/// Swing: windows of the replay of the load. Without its free motion, the response of a pendulum is
+/// Swing: windows of the load simulation. Without its free motion, the response of a pendulum is
 /// proportional to the force.
 ///
 /// Forces have arbitrary units: only the shape of a pattern counts.

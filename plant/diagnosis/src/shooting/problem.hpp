@@ -123,7 +123,7 @@ class Problem {
   /// Fit of a window from the end of the fit before it.
   [[nodiscard]] WindowFit continued_from(const Replay& replay, std::size_t window, const Fits& fits) const;
   void continue_ringing(const Replays& crane, Fits& fits) const;
-  /// Whether the crane has other inner coordinates that ring freely than the crane of `fits`.
+  /// Whether the crane has other freely oscillating inner coordinates than the crane of `fits`.
   [[nodiscard]] bool has_other_coordinates(const Replays& crane, const Fits& fits) const;
   /// Local optimum of the start from one beginning, linearised there.
   [[nodiscard]] WindowFit fit_from(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,

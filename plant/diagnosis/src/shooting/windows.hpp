@@ -6,7 +6,7 @@
 
 namespace crane::diagnosis {
 
-/// Rows that are compared. The replay starts `lead` rows earlier, which fill the memory of sensors.
+/// Rows that are compared. The simulation starts `lead` rows earlier, which fill the memory of sensors.
 struct Window {
   std::size_t run = 0, first = 0, rows = 0, lead = 0;
 };

@@ -39,7 +39,7 @@ namespace crane::diagnosis {
                                 std::vector<FreeParameter> parameters,
                                 const std::vector<std::vector<double>>& settings);
 
-/// Replays that a candidate changes.
+/// Simulations that a candidate changes.
 enum class Changes { drive, load, both };
 
 /// States whether the rig file contains the quantity of a candidate.

@@ -15,7 +15,7 @@
 
 namespace crane::diagnosis {
 
-/// One effect of a hypothesis, with its values.
+/// A candidate of a hypothesis, with its values. docs/diagnosis.md calls an accepted one a cause.
 struct Effect {
   const Candidate* candidate = nullptr;
   std::vector<double> values;

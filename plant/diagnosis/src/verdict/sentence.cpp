@@ -23,8 +23,7 @@ std::string at_the_bound(const std::vector<Calibrated>& calibrated) {
     }
   if (names.empty()) return "";
   return " At the bound of the stated accuracy: " + names +
-         ". The accuracy of the rig file may be lower than stated, or an effect without a term may be the "
-         "cause.";
+         ". The accuracy of the rig file may be lower than stated, or the true cause may have no term.";
 }
 
 std::string verdict_of(const Diagnosis& d) {

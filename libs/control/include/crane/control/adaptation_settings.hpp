@@ -1,5 +1,5 @@
 #pragma once
-/// Settings of the adaptation on line: [adaptation] of a rig file.
+/// Settings of the online adaptation: [adaptation] of a rig file.
 #include <array>
 
 #include "crane/fields/field.hpp"

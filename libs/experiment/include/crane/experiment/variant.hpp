@@ -17,7 +17,7 @@ struct Variant {
 
 /// All variants: first the variants of a comparison, then the variants of single figures.
 [[nodiscard]] const std::vector<Variant>& variants();
-/// Variants of a comparison without the option --variant.
+/// Variants of a comparison without the option --variants.
 [[nodiscard]] std::vector<std::string> default_variants();
 
 /// @param names  one or several names joined by '+', applied from left to right:

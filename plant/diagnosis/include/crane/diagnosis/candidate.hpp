@@ -20,7 +20,8 @@ struct FreeParameter {
       false;  ///< the value is usually at a bound: a rough fit first holds the value at each bound
 };
 
-/// One form of an effect: probes of a small amount each. The score test uses the probes of one shape jointly.
+/// One form of a candidate: probes of a small amount each. The score test uses the probes of one shape
+/// jointly.
 struct Shape {
   std::vector<plant::TermSetting> probes;
   std::vector<double> amounts;
@@ -34,7 +35,7 @@ enum class GoesWith { position, speed, reversals, time, other_command, frequency
 struct Candidate {
   std::string cause;                 ///< name of the term
   std::string axis;                  ///< "trolley", "slew", "radial", "tangential" or empty
-  bool drive = false, load = false;  ///< replays that the candidate changes
+  bool drive = false, load = false;  ///< simulations that the candidate changes
   std::vector<FreeParameter> parameters;
   /// Number of leading parameters that are amounts. If all amounts are at `null`, there is no effect for any
   /// values of the other parameters.
@@ -66,9 +67,9 @@ struct Candidate {
   /// Initial values of a fit, from the amounts of the probes of a shape.
   [[nodiscard]] std::vector<double> begin(const Shape& shape, const std::vector<double>& amounts) const;
 
-  /// True when the cause changes the replay of the output directly. The replay of the swing prescribes the
-  /// motion of the support, so that a sensor or a backlash of the support changes the replay of the swing as
-  /// well.
+  /// True when the cause changes the simulation of the output directly. The load simulation prescribes the
+  /// motion of the support, so that a sensor or a backlash of the support also changes the simulated
+  /// swing.
   [[nodiscard]] bool acts_on(Output output) const {
     const bool of_drive = output == kTrolleyPosition || output == kSlewAngle;
     const bool of_support = axis == "trolley" || axis == "slew";

@@ -1,5 +1,5 @@
 #pragma once
-/// Diagnosis of a simulation by measured data: cause, extended model, gain (docs/diagnosis.md).
+/// Diagnosis of a simulation by measured data: causes, extended model, gain (docs/diagnosis.md).
 #include <functional>
 #include <map>
 #include <optional>
@@ -91,7 +91,7 @@ struct Visibility {
 };
 
 struct NextExperiment {
-  std::string name;         ///< of the menu
+  std::string name;         ///< of the motion
   std::string description;  ///< one sentence
   double separation = 0;    ///< difference of the predictions, in standard deviations of the noise
   std::string scenario;     ///< file for `crane run`
@@ -107,7 +107,7 @@ struct Diagnosis {
   Verdict verdict = Verdict::none;
   std::string sentence;       ///< the verdict as a sentence
   std::vector<Cause> causes;  ///< confirmed, or ambiguous
-  /// Effects that are likely and no larger than the stated accuracy of the rig file. They do not decide the
+  /// Inaccuracies: accepted candidates within the stated accuracy of the rig file. They do not decide the
   /// verdict.
   std::vector<Cause> within_accuracy;
   std::vector<Calibrated> calibrated;

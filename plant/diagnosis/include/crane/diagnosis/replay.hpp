@@ -1,6 +1,6 @@
 #pragma once
-/// Replays: simulations in which some signals are prescribed as measured. services/replay is unrelated.
-///   whole  command -> positions and swing
+/// Replay: simulation with prescribed motion (docs/diagnosis.md, 1). Independent of services/replay.
+///   whole  command -> positions and swing; nothing is prescribed
 ///   drive  command and measured swing -> positions; a large residual indicates an error of drive or friction
 ///   load   measured motion -> swing; a large residual indicates an error of the load or its sensors
 ///
@@ -28,7 +28,7 @@ struct Crane {
   std::vector<plant::TermSetting> terms;
 };
 
-/// A run with the signals that all its replays share.
+/// A run with the signals that all its simulations share.
 struct PreparedRun {
   Run run;
   configuration::RigKind kind = configuration::RigKind::tower;
@@ -68,10 +68,10 @@ class Replay {
   Replay(Replay&&) noexcept;
 
   /// Size of the start of a window: position and rate of each simulated output, then of each inner coordinate
-  /// that rings freely. Other inner coordinates start where the simulation along the measured motion has
-  /// them; a replay of the load prescribes them from there.
+  /// that oscillates freely. Other inner coordinates start where the simulation along the measured motion
+  /// has them; the load simulation prescribes them from there.
   [[nodiscard]] std::size_t start_size(Part part) const;
-  /// Rms of ringing inner coordinates along the measured motion: position and rate of each.
+  /// Rms along the measured motion of the inner coordinates that oscillate freely: position and rate of each.
   [[nodiscard]] std::vector<double> inner_start_scale() const;
   /// Measured start at row `first`; its size is start_size(part).
   [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
