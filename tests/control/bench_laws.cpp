@@ -7,8 +7,10 @@
 #include "crane/control/friction_compensation.hpp"
 #include "crane/control/law.hpp"
 #include "crane/control/shaper.hpp"
+#include "crane/control/stick.hpp"
 #include "crane/control/trajectory.hpp"
 #include "crane/control/zero_phase.hpp"
+#include "stick_history.hpp"
 
 namespace crane::control {
 namespace {
@@ -64,6 +66,18 @@ void reference(benchmark::State& state) {
   }
 }
 
+/// Three axes whose stick reverses about four times a second, with the longest shaper.
+void stick(benchmark::State& state) {
+  const StickLimits limits = test::tower_stick(Shaping::zvd);
+  StickMemory memory;
+  Reference start;
+  start[kTrolley].position = start[kHoist].position = 1;
+  begin(limits, start, memory);
+  test::RandomStick hand{1, {true, true, true}, 0.5};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(step(limits, test::speeds(limits, hand.next(limits.period_s)), memory));
+}
+
 void zero_phase_of_a_minute(benchmark::State& state) {
   std::vector<double> samples(6000);
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = static_cast<double>(k % 100);
@@ -77,6 +91,7 @@ const bool kRegistered = [] {
     benchmark::RegisterBenchmark((name + "/anti_swing").c_str(), step_law, controller.make_anti_swing);
   }
   benchmark::RegisterBenchmark("s_curve_shaped_ei", reference);
+  benchmark::RegisterBenchmark("stick_zvd", stick);
   benchmark::RegisterBenchmark("zero_phase_6000_samples", zero_phase_of_a_minute);
   benchmark::RegisterBenchmark("friction_compensation", friction);
   benchmark::RegisterBenchmark("adaptation", adaptation);

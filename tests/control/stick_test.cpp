@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <limits>
 #include <numbers>
 
@@ -170,25 +169,6 @@ TEST(Stick, NamesEveryProblemOfItsLimits) {
   limits.axis[kTrolley].acceleration = 0;
   EXPECT_EQ(problems(limits).size(), 3u) << "period, ticks of the swing period, acceleration";
   EXPECT_TRUE(problems(tower_stick()).empty());
-}
-
-TEST(Stick, NeedsLessThanTenMicrosecondsPerTick) {
-  Crane crane{tower_stick(Shaping::zvd)};
-  RandomStick stick{1, {true, true, true}, 0.5};
-  constexpr int kBatches = 10, kTicks = 500;
-  double best_ns = 1e9;  // smallest time of all batches, because other processes may interrupt some batches
-  for (int batch = 0; batch < kBatches; ++batch) {
-    std::chrono::nanoseconds spent{0};
-    for (int k = 0; k < kTicks; ++k) {
-      const auto wanted = speeds(crane.limits, stick.next(0.01));
-      const auto begin = std::chrono::steady_clock::now();
-      crane.at = step(crane.limits, wanted, crane.memory);
-      spent += std::chrono::steady_clock::now() - begin;
-    }
-    best_ns = std::min(best_ns, static_cast<double>(spent.count()) / kTicks);
-  }
-  RecordProperty("mean_ns", std::to_string(best_ns));
-  EXPECT_LT(best_ns, 10'000) << "mean of " << kTicks << " ticks in ns";
 }
 
 }  // namespace
