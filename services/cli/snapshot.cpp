@@ -1,7 +1,9 @@
 #include "cli/snapshot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <ostream>
+#include <ranges>
 
 #include "cli/sample_json.hpp"
 #include "cli/text_table.hpp"
@@ -12,6 +14,7 @@
 #include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/states.hpp"
 #include "observation/traffic.hpp"
+#include "stack/stack.hpp"
 
 namespace crane::cli {
 namespace {
@@ -140,9 +143,24 @@ void print_latch(std::ostream& out, const msg::State& state) {
       << bridge::explanation_of(reason) << ": " << bridge::remedy_for(reason) << '\n';
 }
 
+std::vector<std::string> unheard(const Snapshot& snapshot) {
+  const auto heard = [&](const runtime::ComponentSpec& process) {
+    return std::ranges::any_of(snapshot.nodes | std::views::values,
+                               [&](const msg::NodeStatus& node) { return node.name == process.name; });
+  };
+  const auto loop = stack::simulated_stack(), with_bridge = stack::hardware_stack();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (heard(loop[i]) || heard(with_bridge[i])) continue;
+    names.emplace_back(loop[i].name);
+    if (with_bridge[i].name != loop[i].name) names.back() += " or " + std::string{with_bridge[i].name};
+  }
+  return names;
+}
+
 Snapshot listen(bus::Bus& bus, double timeout_s) {
-  // Discovery is complete after this time without a new process. With keys, a handshake precedes the
-  // discovery. The handshake is slow on a busy computer.
+  // Recorder, twin and tools are optional: they are heard when nothing new has been heard for this time. With
+  // keys, a handshake precedes the discovery. The handshake is slow on a busy computer.
   const std::int64_t quiet_ns = bus.options().credentials ? 1'500'000'000 : 300'000'000;
   auto nodes = bus.subscriber(topics::node);
   auto supervisors = bus.subscriber(topics::supervisor);
@@ -152,6 +170,7 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
   Snapshot snapshot;
   std::int64_t changed_ns = runtime::monotonic_ns();
   int writers = 0;
+  std::size_t heard = 0;
   wait_until(bus, timeout_s, [&] {
     while (const auto node = nodes.take()) snapshot.nodes[node->node] = *node;
     bus::take_newest(supervisors, snapshot.supervisor);
@@ -159,15 +178,26 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
     bus::take_newest(twins, snapshot.twin);
     bus::take_newest(adaptations, snapshot.adaptation);
     const auto now_ns = runtime::monotonic_ns();
-    if (nodes.matched() != writers) changed_ns = now_ns;
-    writers = nodes.matched();
-    const bool all = writers > 0 && snapshot.nodes.size() >= static_cast<std::size_t>(writers);
+    if (nodes.matched() != writers || snapshot.nodes.size() != heard) changed_ns = now_ns;
+    writers = nodes.matched(), heard = snapshot.nodes.size();
     const bool twin_heard = twins.matched() == 0 || snapshot.twin;
     const bool adaptation_heard = adaptations.matched() == 0 || snapshot.adaptation;
-    return all && twin_heard && adaptation_heard && snapshot.supervisor && snapshot.state &&
-           now_ns - changed_ns > quiet_ns;
+    return twin_heard && adaptation_heard && snapshot.supervisor && snapshot.state &&
+           unheard(snapshot).empty() && now_ns - changed_ns > quiet_ns;
   });
   snapshot.other_versions = bus.other_versions();
+  return snapshot;
+}
+
+Snapshot safety_state(bus::Bus& bus, double timeout_s) {
+  auto supervisors = bus.subscriber(topics::supervisor);
+  auto states = bus.subscriber(topics::state);
+  Snapshot snapshot;
+  wait_until(bus, timeout_s, [&] {
+    bus::take_newest(supervisors, snapshot.supervisor);
+    bus::take_newest(states, snapshot.state);
+    return snapshot.supervisor && snapshot.state;
+  });
   return snapshot;
 }
 
@@ -175,6 +205,7 @@ nlohmann::ordered_json to_json(const Snapshot& snapshot) {
   nlohmann::ordered_json result;
   result["nodes"] = nlohmann::ordered_json::array();
   for (const auto& [number, node] : snapshot.nodes) result["nodes"].push_back(to_json(topics::node, node));
+  result["unheard"] = unheard(snapshot);
   result["supervisor"] = nullptr;
   if (snapshot.supervisor) {
     result["supervisor"] = to_json(topics::supervisor, *snapshot.supervisor);
@@ -204,6 +235,9 @@ void print(std::ostream& out, const Snapshot& snapshot) {
   }
   if (snapshot.twin) print_twin(out, *snapshot.twin);
   if (snapshot.adaptation) print_adaptation(out, *snapshot.adaptation);
+  for (const auto& name : unheard(snapshot))
+    out << "no status   of " << name
+        << ": it does not run, or the network loses its samples; try a longer --timeout, crane doctor\n";
   for (const auto& other : snapshot.other_versions) out << "version     " << bus::refusal(other) << '\n';
   if (!snapshot.supervisor) out << "supervisor  no status received: the crane cannot move\n";
   if (!snapshot.state) out << "crane/state  no sample received: neither bridge nor plant publishes it\n";

@@ -18,12 +18,18 @@ struct Snapshot {
   [[nodiscard]] bool empty() const { return nodes.empty() && !supervisor && !state; }
 };
 
-/// Listens until every discovered process has sent its status and crane/state has arrived, at most
-/// `timeout_s`.
-[[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
+/// Processes of the loop whose status the snapshot lacks: "plant or hardware_bridge", "tracking", ...
+[[nodiscard]] std::vector<std::string> unheard(const Snapshot& snapshot);
 
-/// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null, "twin", "adaptation":
-/// likewise, "other_versions": [{"participant", "version"}]}
+/// Listens until no process of the loop is unheard, nothing new is discovered, and crane/state and
+/// crane/supervisor have arrived, at most `timeout_s`. On a network that loses packets, the discovery of a
+/// process can take seconds longer than that of the others.
+[[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
+/// Only supervisor and state, at most `timeout_s`.
+[[nodiscard]] Snapshot safety_state(bus::Bus& bus, double timeout_s);
+
+/// {"nodes": [...], "unheard": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null,
+/// "twin", "adaptation": likewise, "other_versions": [{"participant", "version"}]}
 [[nodiscard]] nlohmann::ordered_json to_json(const Snapshot& snapshot);
 /// Prints the processes, the state of the supervisor with cause and remedy, and the axes.
 void print(std::ostream& out, const Snapshot& snapshot);

@@ -19,7 +19,7 @@ struct ModeOptions {
 int show(const ModeOptions& options) {
   constexpr double kPatience_s = 5;
   auto bus = open_bus(options.bus);
-  const auto snapshot = listen(bus, kPatience_s);
+  const auto snapshot = safety_state(bus, kPatience_s);
   if (!snapshot.supervisor) throw NoAnswer("no supervisor" + where_and_remedy(bus));
   print_mode(std::cout, *snapshot.supervisor);
   return runtime::kExitDone;

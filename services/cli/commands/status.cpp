@@ -44,7 +44,7 @@ void add_status(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<StatusOptions>();
   auto* command = app.add_subcommand("status", "Show processes, safety state with the next step, and axes");
   command->add_flag("--json", options->json, "print one JSON object");
-  command->add_option("--timeout", options->timeout_s, "longest wait for a sample in s")
+  command->add_option("--timeout", options->timeout_s, "longest wait for all processes of the loop in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);

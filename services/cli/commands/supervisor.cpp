@@ -61,7 +61,7 @@ int explain(const ExplainOptions& options) {
     explain_present(last_of(options.state));
   } else if (options.live) {
     auto bus = open_bus(options.bus);
-    const auto snapshot = listen(bus, options.timeout_s);
+    const auto snapshot = safety_state(bus, options.timeout_s);
     if (!snapshot.supervisor)
       throw std::runtime_error("no sample of the supervisor received" + where_and_remedy(bus));
     explain_present(snapshot);
