@@ -183,16 +183,13 @@ TEST_P(CopiedPrefix, StopsAnArmedCraneInsteadOfMovingIt) {
   expect_hold_or_stop();
 }
 
-std::vector<Imitated> all_imitated() {
-  std::vector<Imitated> all;
-  for (const char* vendor : {"cyclone", "fastdds"})
-    for (const auto& [topic, reader] : kLoopRoutes) all.push_back({topic, reader, vendor});
-  return all;
+std::string route_of(const testing::TestParamInfo<Imitated>& test) {
+  return std::string{test.param.topic} + "_" + test.param.vendor;
 }
-INSTANTIATE_TEST_SUITE_P(OnEveryLoopTopic, CopiedPrefix, testing::ValuesIn(all_imitated()),
-                         [](const auto& test) {
-                           return std::string{test.param.topic} + "_" + test.param.vendor;
-                         });
+INSTANTIATE_TEST_SUITE_P(OnEveryLoopTopic, CopiedPrefix, testing::ValuesIn(routes_in_turn<Imitated>(true)),
+                         route_of);
+INSTANTIATE_TEST_SUITE_P(LongOnEveryLoopTopic, CopiedPrefix,
+                         testing::ValuesIn(routes_in_turn<Imitated>(false)), route_of);
 
 class PrefixOfAKilledSupervisor : public CopiedPrefix {};
 

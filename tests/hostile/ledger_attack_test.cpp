@@ -51,15 +51,13 @@ TEST_P(CopiedGuid, StopsAnArmedCraneInsteadOfMovingIt) {
   EXPECT_FALSE(is(crane_STATE_HOLD)) << "the packets have no effect: this test proves nothing";
 }
 
-std::vector<Route> all_routes() {
-  std::vector<Route> routes;
-  for (const char* vendor : {"cyclone", "fastdds"})
-    for (const auto& [topic, reader] : kLoopRoutes) routes.push_back({topic, reader, vendor});
-  return routes;
-}
-INSTANTIATE_TEST_SUITE_P(OnEveryLoopTopic, CopiedGuid, testing::ValuesIn(all_routes()), [](const auto& test) {
+std::string route_of(const testing::TestParamInfo<Route>& test) {
   return std::string{test.param.topic} + "_" + test.param.vendor;
-});
+}
+INSTANTIATE_TEST_SUITE_P(OnEveryLoopTopic, CopiedGuid, testing::ValuesIn(routes_in_turn<Route>(true)),
+                         route_of);
+INSTANTIATE_TEST_SUITE_P(LongOnEveryLoopTopic, CopiedGuid, testing::ValuesIn(routes_in_turn<Route>(false)),
+                         route_of);
 
 class DemandWithoutLedger : public CopiedGuid {};
 

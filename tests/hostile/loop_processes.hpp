@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <ostream>
+#include <vector>
 
 namespace crane::hostile {
 
@@ -22,5 +24,18 @@ inline constexpr LoopRoute kLoopRoutes[] = {{"command", "plant"},
                                             {"anti_swing", "friction_compensation"},
                                             {"demand", "supervisor"},
                                             {"supervisor", "trajectory_planner"}};
+
+/// Loop topics with a vendor: crane/command with both, each other topic with one in turn; or all other pairs.
+/// @tparam Route initialised from topic, reader, vendor
+template <class Route>
+std::vector<Route> routes_in_turn(bool usual) {
+  constexpr std::array kVendors{"cyclone", "fastdds"};
+  std::vector<Route> chosen;
+  for (std::size_t vendor = 0; vendor < kVendors.size(); ++vendor)
+    for (std::size_t topic = 0; topic < std::size(kLoopRoutes); ++topic)
+      if ((topic == 0 || (topic + vendor) % kVendors.size() == 0) == usual)
+        chosen.push_back({kLoopRoutes[topic].topic, kLoopRoutes[topic].reader, kVendors[vendor]});
+  return chosen;
+}
 
 }  // namespace crane::hostile

@@ -268,8 +268,17 @@ constexpr Attack kAttacks[] = {{"announcements", announcements},
                                {"fragments", fragments, "fastdds"}};
 /// One topic for each kind of reader: bridge, supervisor, a controller, planner.
 constexpr LoopRoute kRoutes[] = {kLoopRoutes[0], kLoopRoutes[1], kLoopRoutes[3], kLoopRoutes[6]};
-INSTANTIATE_TEST_SUITE_P(Of, ProtocolAttack,
-                         testing::Combine(testing::ValuesIn(kAttacks), testing::ValuesIn(kRoutes)), name_of);
+/// Each attack on one route, each route with a third of the attacks; the other pairs are Long tests.
+std::vector<std::tuple<Attack, LoopRoute>> pairs(bool usual) {
+  std::vector<std::tuple<Attack, LoopRoute>> chosen;
+  for (std::size_t attack = 0; attack < std::size(kAttacks); ++attack)
+    for (std::size_t route = 0; route < std::size(kRoutes); ++route)
+      if (((attack + route) % std::size(kRoutes) == 0) == usual)
+        chosen.emplace_back(kAttacks[attack], kRoutes[route]);
+  return chosen;
+}
+INSTANTIATE_TEST_SUITE_P(Of, ProtocolAttack, testing::ValuesIn(pairs(true)), name_of);
+INSTANTIATE_TEST_SUITE_P(LongOf, ProtocolAttack, testing::ValuesIn(pairs(false)), name_of);
 
 }  // namespace
 }  // namespace crane::hostile

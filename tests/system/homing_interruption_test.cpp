@@ -146,11 +146,20 @@ std::string name_of_case(const testing::TestParamInfo<Case>& test) {
 
 constexpr std::array kProcesses{"hardware_bridge", "trajectory_planner", "supervisor"};
 
-INSTANTIATE_TEST_SUITE_P(InEachPhase, HomingInterruption,
-                         testing::Combine(testing::ValuesIn(kProcesses), testing::Values(SIGKILL, SIGSTOP),
-                                          testing::Values(Phase::arming, Phase::approach, Phase::at_mark,
-                                                          Phase::back_off)),
-                         name_of_case);
+constexpr std::array kSignals{SIGKILL, SIGSTOP};
+
+/// Each signal in each phase to one process in turn; the other processes are Long tests.
+std::vector<Case> cases(bool usual) {
+  std::vector<Case> chosen;
+  for (std::size_t process = 0; process < kProcesses.size(); ++process)
+    for (std::size_t signal = 0; signal < kSignals.size(); ++signal)
+      for (std::size_t phase = 0; phase < kPhases.size(); ++phase)
+        if (((process + signal + phase) % kProcesses.size() == 0) == usual)
+          chosen.emplace_back(kProcesses[process], kSignals[signal], static_cast<Phase>(phase));
+  return chosen;
+}
+INSTANTIATE_TEST_SUITE_P(InEachPhase, HomingInterruption, testing::ValuesIn(cases(true)), name_of_case);
+INSTANTIATE_TEST_SUITE_P(LongInEachPhase, HomingInterruption, testing::ValuesIn(cases(false)), name_of_case);
 
 }  // namespace
 }  // namespace crane::system_test
