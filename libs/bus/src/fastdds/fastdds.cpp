@@ -7,6 +7,7 @@
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/log/Log.hpp>
 
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <string>
@@ -29,6 +30,19 @@ namespace dds = eprosima::fastdds::dds;
 namespace fastrtps = eprosima::fastrtps;
 using fastdds::duration;
 using namespace std::chrono_literals;
+
+/// The environment of another program with Fast DDS, or a file DEFAULT_FASTRTPS_PROFILES.xml in the working
+/// directory, does not change the participants: with ROS_DISCOVERY_SERVER an operator's stop would reach only
+/// this server. Later buses do not write the environment, which other threads may read.
+void ignore_environment() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    for (const auto* name :
+         {"ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"})
+      ::unsetenv(name);
+    ::setenv("SKIP_DEFAULT_XML_FILE", "1", 1);
+  });
+}
 
 /// Two buses of one process communicate like two processes.
 void switch_intraprocess_delivery_off() {
@@ -219,6 +233,7 @@ class Discovery final : public dds::DomainParticipantListener {
 class FastBackEnd final : public BackEnd {
  public:
   explicit FastBackEnd(const Options& options) : discovery_{options}, number_{options} {
+    ignore_environment();
     switch_intraprocess_delivery_off();
     report_to_vendor_log();
     auto* factory = dds::DomainParticipantFactory::get_instance();
