@@ -1,14 +1,20 @@
 // The driver with real in and out instructions. Without permission each instruction faults; the signal
 // handler of this program emulates the card, and the driver continues.
+#include <sched.h>
 #include <sys/io.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
 #include <ucontext.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cerrno>
 #include <csignal>
+#include <optional>
 
+#include "crane/boards/registry.hpp"
 #include "subject.hpp"
 
 namespace {
@@ -73,13 +79,19 @@ class TrappedCard : public testing::Test {
     action.sa_sigaction = emulate;
     action.sa_flags = SA_SIGINFO;
     ::sigaction(SIGSEGV, &action, &before_);
-    card_behind_the_fault = &card_;
+    move_card_to(0x200);
   }
   ~TrappedCard() override { ::sigaction(SIGSEGV, &before_, nullptr); }
 
   configuration::Rig rig_ = emulated_rig();
   WiredRig crane_{rig_};
-  EmulatedServoToGo card_{0x200, crane_.card(), crane_};
+  /// CTest runs tests beside each other: each test with a lock has its own address.
+  void move_card_to(std::uint16_t base_address) {
+    rig_.wiring.base_address = base_address;
+    card_.emplace(base_address, crane_.card(), crane_);
+    card_behind_the_fault = &*card_;
+  }
+  std::optional<EmulatedServoToGo> card_;
   struct sigaction before_ {};
 };
 
@@ -125,6 +137,51 @@ TEST_F(TrappedCard, WithoutPermissionIsRefusedWithTheRemedy) {
 TEST_F(TrappedCard, OnAKernelWithoutPortAccessIsRefusedWithWhatTheKernelLacks) {
   EXPECT_THAT(refusal(ENOSYS), testing::AllOf(testing::HasSubstr("CONFIG_X86_IOPL_IOPERM"),
                                               testing::Not(testing::HasSubstr("run as root"))));
+}
+
+/// Message of the board when a second bridge opens the card; "accepted" when it does.
+std::string refusal_of_a_second_bridge(const configuration::Rig& rig) {
+  try {
+    (void)make_servo_to_go_board(rig, {});
+  } catch (const BoardError& refused) {
+    return refused.what();
+  }
+  return "accepted";
+}
+const auto kAnotherBridge = testing::HasSubstr("another hardware bridge uses this board");
+
+TEST_F(TrappedCard, IsRefusedToASecondBridgeUntilTheFirstHasEnded) {
+  move_card_to(0x220);
+  auto first = make_servo_to_go_board(rig_, {});
+  const auto before = faults;
+  EXPECT_THAT(refusal_of_a_second_bridge(rig_), kAnotherBridge);
+  EXPECT_EQ(faults, before) << "the second bridge has accessed the card";
+  first.reset();
+  EXPECT_EQ(refusal_of_a_second_bridge(rig_), "accepted");
+}
+
+/// logind removes the shared memory of a user who logs out; the bridge of this user continues.
+TEST_F(TrappedCard, IsRefusedToASecondBridgeAfterTheSharedMemoryWasRemoved) {
+  move_card_to(0x240);
+  const auto first = make_servo_to_go_board(rig_, {});
+  ASSERT_EQ(::shm_unlink(("/crane_servo_to_go_" + std::to_string(rig_.wiring.base_address)).c_str()), 0);
+  const auto before = faults;
+  EXPECT_THAT(refusal_of_a_second_bridge(rig_), kAnotherBridge);
+  EXPECT_EQ(faults, before) << "the second bridge has accessed the card";
+}
+
+TEST_F(TrappedCard, IsRefusedToASecondBridgeInAnotherNetworkNamespace) {
+  move_card_to(0x260);
+  const auto first = make_servo_to_go_board(rig_, {});
+  const auto child = ::fork();
+  if (child == 0) {
+    if (::unshare(CLONE_NEWNET) != 0) ::_exit(2);
+    ::_exit(testing::Matches(kAnotherBridge)(refusal_of_a_second_bridge(rig_)) ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "a network namespace needs root";
+  EXPECT_EQ(status, 0);
 }
 
 }  // namespace
