@@ -6,6 +6,7 @@
 #include <random>
 
 #include "force/normal_equations.hpp"
+#include "force/swing_under.hpp"
 #include "force/swing_variables.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
@@ -37,19 +38,6 @@ MatrixXd shapes_in(std::size_t window, std::size_t rows, const SwingVariable& va
           variable.factor[window][row] * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
   }
   return shapes;
-}
-
-/// Swing of a pendulum from rest, by column, under accelerations that last one row each. In place.
-void swing_under(MatrixXd& x, double radps, double period_s) {
-  const double c = std::cos(radps * period_s), s = std::sin(radps * period_s);
-  Eigen::RowVectorXd angle = Eigen::RowVectorXd::Zero(x.cols()), rate = angle;
-  for (Index k = 0; k < x.rows(); ++k) {
-    const Eigen::RowVectorXd push = x.row(k) / (radps * radps);
-    x.row(k) = angle;
-    const Eigen::RowVectorXd from_equilibrium = angle - push;
-    angle = push + c * from_equilibrium + s / radps * rate;
-    rate = c * rate - radps * s * from_equilibrium;
-  }
 }
 
 /// Without the free motion of the load, which the start of a window explains.

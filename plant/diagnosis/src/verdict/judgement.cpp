@@ -33,6 +33,16 @@ std::string described(const SwingPattern& pattern) {
       .str();
 }
 
+std::string described(const ShortForce& force, const Runs& runs) {
+  const Run& run = runs[force.run].run;
+  return (std::ostringstream{} << std::setprecision(2) << "a force on the load of "
+                               << 100 * std::abs(force.share_of_weight) << " % of its weight for about "
+                               << force.duration_s << " s in the direction of " << kOutputNames[force.output]
+                               << " (" << run.name << " at " << std::fixed << std::setprecision(1)
+                               << run.start_s + force.from_s << " s)")
+      .str();
+}
+
 class Judgement {
  public:
   Judgement(const Study& study, const Hypotheses& hypotheses, const Fitted& with_intervals,
@@ -96,14 +106,16 @@ class Judgement {
       remainder.from.push_back(lacking);
       return true;
     }
-    const std::vector<SwingPattern> of_swing =
-        swing_patterns_left(study_, best_, accuracy_.permitted_share_of_swing(), seed_);
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, of_swing.size()); ++i)
-      remainder.from.push_back(described(of_swing[i]));
-    if (!of_swing.empty()) {
-      remainder.predictable_fraction = of_swing[0].fraction;
+    const auto [patterns, forces] = swing_left(study_, best_, accuracy_.permitted_share_of_swing(), seed_);
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, patterns.size()); ++i)
+      remainder.from.push_back(described(patterns[i]));
+    if (!patterns.empty()) {
+      remainder.predictable_fraction = patterns[0].fraction;
       return true;
     }
+    // A force that acts a few times hides no cause that has been found beside it.
+    for (const ShortForce& force : forces) remainder.from.push_back(described(force, study_.load().runs()));
+    if (causes_.empty() && !forces.empty()) return true;
     std::vector<Pattern> left = patterns_left(study_, all_, losing_, seed_);
     std::erase_if(left, [&](const Pattern& pattern) { return accuracy_.contains(pattern.what); });
     if (left.empty()) return false;

@@ -12,8 +12,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Length of the windows in which patterns of the swing are sought. In a window of one period, the start
-/// explains a constant force.
+/// Length of the windows in which patterns and short forces of the swing are sought. In a window of one
+/// period, the start explains a constant force.
 constexpr double kPatternWindow_periods = 5;
 
 double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
@@ -106,9 +106,8 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
   return left;
 }
 
-std::vector<SwingPattern> swing_patterns_left(const Study& study, const Fitted& best, double permitted,
-                                              std::uint64_t seed) {
-  std::vector<SwingPattern> left;
+SwingLeft swing_left(const Study& study, const Fitted& best, double permitted, std::uint64_t seed) {
+  SwingLeft left;
   const Problem& load = study.load();
   if (load.empty()) return left;
   const double window_s =
@@ -125,9 +124,11 @@ std::vector<SwingPattern> swing_patterns_left(const Study& study, const Fitted& 
     if (!oscillates(study, best.effects))
       if (auto band = find_narrow_band(load, best.train.load, output)) found.push_back(std::move(*band));
     for (SwingPattern& pattern : found)
-      if (pattern.rms_rad > largest_rad) left.push_back(std::move(pattern));
+      if (pattern.rms_rad > largest_rad) left.patterns.push_back(std::move(pattern));
+    if (const auto force = find_short_force(long_windows, fits, output, permitted))
+      left.forces.push_back(*force);
   }
-  std::ranges::sort(left, [](const auto& a, const auto& b) { return a.rms_rad > b.rms_rad; });
+  std::ranges::sort(left.patterns, [](const auto& a, const auto& b) { return a.rms_rad > b.rms_rad; });
   return left;
 }
 

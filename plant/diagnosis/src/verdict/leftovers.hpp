@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "data/lost_counts.hpp"
+#include "force/short_force.hpp"
 #include "force/swing_patterns.hpp"
 #include "force/unexplained.hpp"
 #include "search/search.hpp"
@@ -30,11 +31,16 @@ struct Pattern {
 /// True if the pattern exceeds the thresholds of patterns beside these effects.
 [[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);
 
-/// Patterns of the swing beside the best hypothesis that are errors of the model, the largest first. Their
-/// rms is larger than both permitted changes of the swing: the given share of its rms motion in the windows,
-/// and kLeastBeside of the largest change by an effect of the hypothesis.
+/// Errors of the swing beside the best hypothesis that are not a random force.
+struct SwingLeft {
+  /// The largest first. The rms of each is larger than both permitted changes of the swing: the given share
+  /// of its rms motion in the windows, and kLeastBeside of the largest change by an effect of the hypothesis.
+  std::vector<SwingPattern> patterns;
+  std::vector<ShortForce> forces;  ///< at most one per output
+};
+
 /// @param permitted share of the motion, > 0: accuracy of the rig file
-[[nodiscard]] std::vector<SwingPattern> swing_patterns_left(const Study& study, const Fitted& best,
-                                                            double permitted, std::uint64_t seed);
+[[nodiscard]] SwingLeft swing_left(const Study& study, const Fitted& best, double permitted,
+                                   std::uint64_t seed);
 
 }  // namespace crane::diagnosis
