@@ -168,6 +168,21 @@ TEST_F(JogKeyboard, StopsTheCraneWhenTheOperatorEndsAStep) {
   EXPECT_TRUE(until(crane_STATE_LOCKED));
 }
 
+/// Ctrl-S would pause the terminal: the next message would block the program, and the program would read no
+/// key.
+TEST_F(JogKeyboard, StopsTheCraneDuringAStepAlsoAfterCtrlS) {
+  constexpr auto kCtrlS = "\x13";
+  auto jog = keyboard({"--inch", "--step", "50mm"});
+  ASSERT_TRUE(jog.wait_for("50 mm", 20s)) << jog.output();
+  jog.type(kUp);
+  ASSERT_TRUE(until_the_trolley_moves());
+  jog.type(kCtrlS);
+  jog.type("i");  // prints the mode
+  jog.type(" ");
+  EXPECT_TRUE(until(crane_STATE_LOCKED));
+  EXPECT_EQ(jog.wait(10s), 1);
+}
+
 TEST_F(JogKeyboard, StopsTheCraneWhenTheTerminalClosesDuringAStep) {
   auto jog = keyboard({"--inch", "--step", "50mm"});
   ASSERT_TRUE(jog.wait_for("50 mm", 20s)) << jog.output();

@@ -13,7 +13,8 @@ namespace crane::cli {
 namespace {
 
 /// Switches off echo and line editing of the terminal. Ctrl-C still ends the program. Suspending is switched
-/// off, because a suspended program would leave these settings to the shell.
+/// off, because a suspended program would leave these settings to the shell. Ctrl-S is switched off: on a
+/// paused terminal the next message would block the program, and no key would stop a step or a return.
 class RawTerminal {
  public:
   RawTerminal() {
@@ -22,6 +23,7 @@ class RawTerminal {
           "jog: standard input is no terminal: give --trolley, --slew or --hoist, and --for");
     termios raw = before_;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    raw.c_iflag &= ~static_cast<tcflag_t>(IXON);
     raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
     raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
     tcsetattr(STDIN_FILENO, TCSANOW, &raw);
