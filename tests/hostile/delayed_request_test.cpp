@@ -71,21 +71,21 @@ TEST_P(DelayedRequest, OfAnOperatorWhoWasToldThatNobodyAnswersMovesNothing) {
   auto replies = bus.subscriber(topics::reply);
   take_controls();
   ASSERT_TRUE(stack_.until([this] { return is_connected(); }, 8s));
-  while (replies.take()) continue;
+  // The listener can receive the answers to resets later than the dashboard.
+  const auto answer_to_the_move = [&replies]() -> std::string {
+    while (const auto reply = replies.take())
+      if (std::string{reply->reason}.find("armed") == std::string::npos) return reply->reason;
+    return "";
+  };
   stack_.forget();
   interruption_.lose(1);
   ASSERT_EQ(client_.post("/api/request", R"({"kind":"move","trolley_m":0.9})", "", seat_), 200U);
   ASSERT_THAT(client_.body(), testing::HasSubstr("did not answer")) << "the connection was not interrupted";
   stack_.listen(300ms);
-  ASSERT_FALSE(replies.take());
+  ASSERT_EQ(answer_to_the_move(), "");
   interruption_.lose(0);
   std::string answer;
-  EXPECT_TRUE(stack_.until(
-      [&] {
-        if (const auto reply = replies.take()) answer = reply->reason;
-        return !answer.empty();
-      },
-      3s))
+  EXPECT_TRUE(stack_.until([&] { return !(answer = answer_to_the_move()).empty(); }, 3s))
       << "the request did not arrive, or was accepted";
   EXPECT_THAT(answer, testing::HasSubstr("more than 2 s after its operator saw the crane"));
   stack_.listen(500ms);

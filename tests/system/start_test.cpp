@@ -181,6 +181,14 @@ TEST_F(Start, BesideAProgramWithMessagesOfAnotherVersionIsRefusedAndBothVersions
   }
 }
 
+TEST_F(Start, WithTooFewOpenFilesIsRefusedWithTheirNumber) {
+  std::string command = "ulimit -n 12; exec " + (stack::program_directory() / "crane").string();
+  for (const auto& word : on_this_crane({"up", "--no-black-box"})) command += " " + word;
+  const auto up = run_program("/bin/sh", {"-c", command});
+  EXPECT_EQ(up.exit_code, kFailed);
+  EXPECT_THAT(up.errors, HasSubstr("do 12 open files suffice"));
+}
+
 class StartOfASecond : public Start {
  protected:
   void SetUp() override { ASSERT_TRUE(first_.wait_for("is up with", 20s)) << first_.errors(); }

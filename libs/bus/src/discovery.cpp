@@ -4,6 +4,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -66,6 +67,15 @@ std::string no_free_number(const Options& options) {
          std::to_string(unicast_port(options.domain, kMostParticipants) - 1) +
          "; `crane up` with its processes takes 8, with --in-process 3); start this crane with --in-process "
          "or another --domain, or end programs that are left over (`pgrep -a crane`)";
+}
+
+std::string cannot_join(const Options& options) {
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  return "cannot join domain " + std::to_string(options.domain) + " on " + options.interfaces.front() +
+         "; is the interface up, are UDP ports " + std::to_string(first_port(options.domain)) +
+         " and up free, and do " + std::to_string(files.rlim_cur) +
+         " open files suffice for this program (`ulimit -n`)?";
 }
 
 bool discovers_by_unicast(const Options& options) {

@@ -28,6 +28,8 @@ inline constexpr std::uint32_t kMostParticipants = most_participants();
 [[nodiscard]] std::uint32_t any_free_port(const Options& options);
 /// @return message with cause and remedy for the case that no participant number is free
 [[nodiscard]] std::string no_free_number(const Options& options);
+/// @return message for the case that the middleware does not state why it could not join
+[[nodiscard]] std::string cannot_join(const Options& options);
 /// @return true when both ports of the participant number are free on all own interfaces. Another process may
 /// take them at the next moment.
 [[nodiscard]] bool has_free_ports(const Options& options, std::uint32_t number);

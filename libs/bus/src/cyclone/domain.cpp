@@ -76,10 +76,7 @@ void report(void* /*unused*/, const dds_log_data_t* entry) {
 }
 
 std::string cannot_open(const Options& options) {
-  const std::string domain = std::to_string(options.domain), host = options.interfaces.front();
-  if (no_free_index) return no_free_number(options);
-  return "cannot open domain " + domain + " on " + host + "; is the interface up, and are UDP ports " +
-         std::to_string(first_port(options.domain)) + " and up free?";
+  return no_free_index ? no_free_number(options) : cannot_join(options);
 }
 
 }  // namespace

@@ -241,9 +241,7 @@ class FastBackEnd final : public BackEnd {
                                                    &discovery_, dds::StatusMask::none()));
     if (!participant_) {
       number_.keep();
-      throw Error{"Fast DDS: cannot create participant in domain " + std::to_string(options.domain) + " on " +
-                  options.interfaces.front() + "; is the interface up, and are UDP ports " +
-                  std::to_string(first_port(options.domain)) + " and up free?"};
+      throw Error{"Fast DDS: " + cannot_join(options)};
     }
     dds::PublisherQos publisher_qos = dds::PUBLISHER_QOS_DEFAULT;
     publisher_qos.partition().push_back(options.crane.c_str());
