@@ -89,7 +89,7 @@ TEST(BacklashOfALaboratory, IsNamedWhenTheGuideTakesItsFrictionFromTheMotor) {
   EXPECT_GT(found.causes[0].parameters.at(3).value, 0.8);
 }
 
-TEST(BacklashOfALaboratory, IsNamedWhenTheGuideHasAdditionalFriction) {
+TEST(LongBacklashOfALaboratory, IsNamedWhenTheGuideHasAdditionalFriction) {
   const Diagnosis found = diagnosed({.guide_friction_v = 0.07});
   EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
   ASSERT_EQ(found.causes.size(), 1U);
