@@ -89,9 +89,22 @@ const CLI::App& deepest_of(const CLI::App& app) {
   return named.empty() ? app : deepest_of(*named.front());
 }
 
-int run(const cli::Action& action) {
+int run(int argc, char** argv) {
+  CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
+  app.set_version_flag("--version", "crane " CRANE_VERSION);
+  app.footer(kFooter);
+  cli::Action chosen;
   try {
-    return action();
+    add_commands(app, chosen);
+    app.parse(argc, argv);
+    if (!chosen) {
+      std::cerr << deepest_of(app).help();
+      return runtime::kExitBadInput;
+    }
+    log_to_standard_error();
+    return chosen();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
   } catch (const configuration::ConfigurationError& error) {
     std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;
@@ -106,20 +119,5 @@ int run(const cli::Action& action) {
 int main(int argc, char** argv) {
   // a write beyond the file-size limit then fails with an error message instead of a signal
   std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
-  app.set_version_flag("--version", "crane " CRANE_VERSION);
-  app.footer(kFooter);
-  cli::Action chosen;
-  add_commands(app, chosen);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
-  }
-  if (!chosen) {
-    std::cerr << deepest_of(app).help();
-    return runtime::kExitBadInput;
-  }
-  log_to_standard_error();
-  return run(chosen);
+  return run(argc, argv);
 }
