@@ -129,6 +129,9 @@ SwingLeft swing_left(const Study& study, const Fitted& best, double permitted, s
       left.forces.push_back(*force);
   }
   std::ranges::sort(left.patterns, [](const auto& a, const auto& b) { return a.rms_rad > b.rms_rad; });
+  std::ranges::sort(left.forces, [](const auto& a, const auto& b) {
+    return std::abs(a.share_of_weight) > std::abs(b.share_of_weight);
+  });
   return left;
 }
 

@@ -36,7 +36,7 @@ struct SwingLeft {
   /// The largest first. The rms of each is larger than both permitted changes of the swing: the given share
   /// of its rms motion in the windows, and kLeastBeside of the largest change by an effect of the hypothesis.
   std::vector<SwingPattern> patterns;
-  std::vector<ShortForce> forces;  ///< at most one per output
+  std::vector<ShortForce> forces;  ///< at most one per output, the largest first
 };
 
 /// @param permitted share of the motion, > 0: accuracy of the rig file
