@@ -4,6 +4,9 @@
 
 namespace crane::diagnosis {
 
+/// Standard deviation of a normal variable with mean 0 over the median of its absolute value.
+inline constexpr double kNormalPerMedian = 1.4826;
+
 /// Upper median. @pre not empty
 [[nodiscard]] inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

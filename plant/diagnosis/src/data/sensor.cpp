@@ -18,8 +18,6 @@ constexpr double kRoundingShare = 1e-12;
 constexpr double kLargest = 1e50;
 /// Steps in the smallest difference, at most.
 constexpr int kMostSteps = 64;
-/// Standard deviation over median absolute value, normal distribution.
-constexpr double kSigmaPerMedianDeviation = 1.4826;
 
 std::vector<double> finite(std::span<const double> values) {
   std::vector<double> kept;
@@ -57,7 +55,7 @@ double noise_of(const std::vector<double>& x) {
   std::vector<double> thirds;
   for (std::size_t k = 3; k < x.size(); ++k)
     thirds.push_back(std::abs(x[k] - 3 * x[k - 1] + 3 * x[k - 2] - x[k - 3]));
-  return kSigmaPerMedianDeviation * median(std::move(thirds)) / std::sqrt(20.0);
+  return kNormalPerMedian * median(std::move(thirds)) / std::sqrt(20.0);
 }
 
 }  // namespace

@@ -78,17 +78,17 @@ std::vector<Pulse> pulses_in(const Pieces& pieces, const Piece& piece, const Win
   const PreparedRun& run = (*pieces.runs)[piece.run];
   std::vector<Pulse> pulses;
   for (Index i = 0; i < response.cols(); ++i) {
-    const double information = response.col(i).norm();
-    if (!(information > 0)) continue;
+    const double norm = response.col(i).norm();  // in standard deviations of the noise, per weight
+    if (!(norm > 0)) continue;
     const std::size_t first = piece.first + static_cast<std::size_t>(i) *
                                                 std::max<std::size_t>(1, static_cast<std::size_t>(rows / 2));
     const auto length = static_cast<std::size_t>(rows);
     Pulse pulse;
-    pulse.statistic = response.col(i).dot(piece.residual) / information;
-    pulse.permitted = permitted * swing_around(run, first, length, half_period) * information;
+    pulse.statistic = response.col(i).dot(piece.residual) / norm;
+    pulse.permitted = permitted * swing_around(run, first, length, half_period) * norm;
     pulse.support_moves = support_moves(run, first, length);
     pulse.force = {pieces.output, piece.run, static_cast<double>(first) * motion.period_s,
-                   static_cast<double>(rows) * motion.period_s, pulse.statistic / information};
+                   static_cast<double>(rows) * motion.period_s, pulse.statistic / norm};
     pulses.push_back(pulse);
   }
   return pulses;
@@ -96,7 +96,6 @@ std::vector<Pulse> pulses_in(const Pieces& pieces, const Piece& piece, const Win
 
 /// Standard deviation of normal values from the median of their absolute values.
 double robust_deviation(const std::vector<double>& values) {
-  constexpr double kNormalPerMedian = 1.4826;
   return values.empty() ? 0 : kNormalPerMedian * median(values);
 }
 
