@@ -18,12 +18,12 @@ struct Snapshot {
   [[nodiscard]] bool empty() const { return nodes.empty() && !supervisor && !state; }
 };
 
-/// Processes of the loop whose status the snapshot lacks: "plant or hardware_bridge", "tracking", ...
+/// Processes of the loop that are missing from the snapshot: "plant or hardware_bridge", "tracking", ...
 [[nodiscard]] std::vector<std::string> unheard(const Snapshot& snapshot);
 
-/// Listens until no process of the loop is unheard, nothing new is discovered, and crane/state and
-/// crane/supervisor have arrived, at most `timeout_s`. On a network that loses packets, the discovery of a
-/// process can take seconds longer than that of the others.
+/// Listens until three conditions hold, but at most for `timeout_s`: every process of the loop has reported;
+/// nothing new has been discovered for 0.3 s, with keys 1.5 s; crane/state and crane/supervisor have arrived.
+/// A network that loses packets can delay the discovery of one process by seconds.
 [[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
 /// Only supervisor and state, at most `timeout_s`.
 [[nodiscard]] Snapshot safety_state(bus::Bus& bus, double timeout_s);

@@ -15,13 +15,11 @@ struct ShortForce {
   double share_of_weight = 0;         ///< peak, with its sign
 };
 
-/// The most significant pulse. Each pulse is fitted alone to the whitened residual. Its standard uncertainty
-/// consists of
-/// - noise and disturbance: the normalised median absolute value of all pulses (F. R. Hampel, J. Amer.
-/// Statist.
-///   Assoc. 69 (1974) 383), which a few forces do not change. The support moves in a part of the data only,
-///   and its measured motion has an error; for a pulse during a motion of the support, the median is that of
-///   such pulses if it is larger;
+/// The most significant pulse. Each pulse is fitted alone to the whitened residual; t is its amplitude over
+/// the standard deviation by the noise model. The standard uncertainty of t consists of
+/// - noise and disturbance: 1.4826 times the median of |t| over all pulses, which a few forces do not change
+///   (docs/diagnosis.md, 9). For pulses during a motion of the support, the median over these pulses, if it
+///   is larger: the measured motion of the support has an error;
 /// - the permitted share of the swing, in all directions, around the pulse.
 /// Level kSignificant for a normal error, Bonferroni over the pulses and the outputs.
 /// @param problem of the load, whitened, with windows of several periods
