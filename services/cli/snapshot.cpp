@@ -190,13 +190,19 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
 }
 
 Snapshot safety_state(bus::Bus& bus, double timeout_s) {
+  // The first samples of a new reader may be old: a writer keeps the last 128 samples (1.3 s) for a reader
+  // that it has found and that has not yet found the writer. They arrive at once.
+  constexpr std::int64_t kBacklog_ns = 300'000'000;
+  std::optional<std::int64_t> first_ns;
   auto supervisors = bus.subscriber(topics::supervisor);
   auto states = bus.subscriber(topics::state);
   Snapshot snapshot;
   wait_until(bus, timeout_s, [&] {
     bus::take_newest(supervisors, snapshot.supervisor);
     bus::take_newest(states, snapshot.state);
-    return snapshot.supervisor && snapshot.state;
+    const auto now_ns = runtime::monotonic_ns();
+    if (!first_ns && snapshot.supervisor && snapshot.state) first_ns = now_ns;
+    return first_ns && now_ns - *first_ns > kBacklog_ns;
   });
   return snapshot;
 }

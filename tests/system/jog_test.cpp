@@ -60,7 +60,8 @@ TEST(ModeProgram, ChangesAndShowsTheModeOfALockedCraneAndIsRefusedByAnArmedOne) 
     return run_program(stack::program_directory() / "crane", names);
   };
   EXPECT_EQ(mode({"manual"}).exit_code, 0);
-  EXPECT_NE(mode({}).output.find("manual"), std::string::npos);
+  const auto shown = mode({});
+  EXPECT_NE(shown.output.find("manual"), std::string::npos) << shown.output << shown.errors;
   EXPECT_EQ(mode({"fast"}).exit_code, 2);
   stack.session().arm();
   const auto refused = mode({"automatic"});
