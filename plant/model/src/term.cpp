@@ -34,16 +34,14 @@ std::vector<std::string> problems(const TermSetting& setting) {
   }
   for (const auto& [name, value] : setting.parameters) {
     const TermParameter* parameter = find_parameter(*kind, name);
+    if (parameter != nullptr && value >= parameter->low && value <= parameter->high) continue;
     std::ostringstream line;
     line << name << " = " << value << ": ";
-    if (parameter == nullptr) {
+    if (parameter == nullptr)
       line << "the term has no such parameter; must be one of "
            << listed(kind->parameters, [](const TermParameter& p) { return p.name; });
-    } else if (!(value >= parameter->low && value <= parameter->high)) {
+    else
       line << "must be in [" << parameter->low << ", " << parameter->high << "] " << parameter->unit;
-    } else {
-      continue;
-    }
     found.push_back(line.str());
   }
   return found;
