@@ -9,7 +9,7 @@
 namespace crane::real_time_test {
 namespace {
 
-constexpr std::int64_t kStep_ns = 1'000'000;
+constexpr std::int64_t kStep_ns = 1'000'000, kTick_ns = 10'000'000;
 constexpr int kPriority = 90;  // above the 50 to 60 of a stack
 
 std::int64_t now_ns() {
@@ -41,7 +41,9 @@ TimerWitness::~TimerWitness() {
   for (auto& thread : threads_) thread.join();
 }
 
-TimerWitness::Report TimerWitness::take() { return {pauses_.exchange(0), latest_ns_.exchange(0)}; }
+TimerWitness::Report TimerWitness::take() {
+  return {pauses_.exchange(0), ticks_.exchange(0), latest_ns_.exchange(0)};
+}
 
 void TimerWitness::watch(unsigned processor) {
   if (!pin_and_raise(processor)) has_priority_ = false;
@@ -51,7 +53,10 @@ void TimerWitness::watch(unsigned processor) {
     const timespec at{.tv_sec = next_ns / 1'000'000'000, .tv_nsec = next_ns % 1'000'000'000};
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
     const auto late_ns = now_ns() - next_ns;
-    if (late_ns >= kPause_ns) ++pauses_;
+    if (late_ns >= kPause_ns) {
+      ++pauses_;
+      ticks_ += static_cast<std::uint64_t>(1 + late_ns / kTick_ns);
+    }
     auto latest_ns = latest_ns_.load();
     while (late_ns > latest_ns && !latest_ns_.compare_exchange_weak(latest_ns, late_ns)) {
     }

@@ -24,10 +24,11 @@ class TimerWitness {
   TimerWitness(const TimerWitness&) = delete;
   TimerWitness& operator=(const TimerWitness&) = delete;
 
-  /// Number of wake-ups since the last call that were later than kPause_ns, and the largest lateness.
+  /// Wake-ups since the last call that were later than kPause_ns.
   struct Report {
-    int pauses = 0;
-    std::int64_t latest_ns = 0;
+    int pauses = 0;              ///< their number
+    std::uint64_t ticks = 0;     ///< ticks of 10 ms that they may cost each process of a stack
+    std::int64_t latest_ns = 0;  ///< largest lateness
   };
   [[nodiscard]] Report take();
   /// False when the system denied real-time priority: then a busy processor looks like a pause.
@@ -39,6 +40,7 @@ class TimerWitness {
   std::latch watching_;
   std::atomic<bool> stop_{false}, has_priority_{true};
   std::atomic<int> pauses_{0};
+  std::atomic<std::uint64_t> ticks_{0};
   std::atomic<std::int64_t> latest_ns_{0};
   std::vector<std::thread> threads_;
 };

@@ -9,6 +9,7 @@
 #include "../recording/temporary_directory.hpp"
 #include "crane/supervisor/states.hpp"
 #include "running_stack.hpp"
+#include "timer_witness.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -207,6 +208,7 @@ TEST_P(ObserverFault, DoesNotDisturbTheMove) {
   arguments.insert(arguments.begin(), {"record", (directory / "run.mcap").string()});
   stack_.children().start("recorder", "crane", arguments);
   ASSERT_TRUE(stack_.until([this] { return observer().nodes().contains("recorder"); }, 10s));
+  real_time_test::TimerWitness witness;
   get_going();
   const auto lost_before = lost_ticks(observer());
   const auto signal_ns = clock_ns(CLOCK_MONOTONIC);
@@ -225,14 +227,15 @@ TEST_P(ObserverFault, DoesNotDisturbTheMove) {
         << ms(status.header.sample_time_ns - signal_ns) << " ms after the signal";
   const auto& states = observer().states();
   ASSERT_GT(states.size(), 200U);
-  EXPECT_EQ(states.back().header.tick - states.front().header.tick + 1, states.size());
+  const auto pauses = witness.take();  // of the computer: they cost ticks, too
+  EXPECT_LE(states.back().header.tick - states.front().header.tick + 1, states.size() + pauses.ticks);
   std::uint64_t most_lost = 0;
   for (const auto& [name, lost] : lost_ticks(observer()))
     most_lost = std::max(most_lost, lost - lost_before.at(name));
-  EXPECT_LE(most_lost, kBridged);
+  EXPECT_LE(most_lost, kBridged + pauses.ticks);
   std::cout << GetParam() << ": " << states.size() << " ticks, "
             << states.back().overruns - states.front().overruns << " late, at most " << most_lost
-            << " lost by a process\n";
+            << " lost by a process, " << pauses.pauses << " pauses of the computer\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(ARecorder, ObserverFault,
