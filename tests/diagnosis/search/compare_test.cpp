@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "search/block_votes.hpp"
 #include "search/compare.hpp"
 
 namespace crane::diagnosis {

@@ -1,6 +1,7 @@
 #pragma once
 /// Comparisons of fitted hypotheses.
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "crane/diagnosis/diagnosis.hpp"
@@ -40,10 +41,6 @@ namespace crane::diagnosis {
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
-/// p value of "the mean difference of the blocks is 0", one-sided (`now` < `before`), from the scatter of the
-/// blocks. Large differences are clipped, so that no block dominates.
-[[nodiscard]] double block_test_p_value(const Blocks& now, const Blocks& before);
-
 /// p value of the likelihood-ratio test of "the additional values of `fitted` have no effect". Twice the log
 /// likelihood ratio is chi-square distributed (Wilks, Ann. Math. Statist. 9 (1938) 60), for a composite
 /// likelihood after division by the dispersion of its scores (Varin, Reid, Firth, Statist. Sinica 21 (2011)
@@ -63,17 +60,8 @@ namespace crane::diagnosis {
 /// True when `p_value` is not significant for the best of `candidates` (Bonferroni, kFamilywiseLevel).
 [[nodiscard]] bool insignificant(double p_value, std::size_t candidates);
 
-/// Share of block resamples in which `now` < `before`. Large differences are clipped as above.
-[[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);
-
-/// Share of the votes for each rival; the remaining votes are for `best`. Each block resample is one vote,
-/// over the blocks on which those effects act that only `best` has. A rival whose deviance is lower than that
-/// of `best` by more than kIndistinct of the gain of `best` gets the whole vote. Otherwise `best` shares the
-/// vote equally with all rivals whose deviance is not higher by as much.
-/// @param base the model without effects
-[[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                              const Fitted& base, std::uint64_t seed);
-
 [[nodiscard]] std::vector<Estimate> estimates(const Fitted& fitted);
+/// Line of the ranking, without p value and votes.
+[[nodiscard]] Ranked ranked_against(const Fitted& base, const Fitted& fitted);
 
 }  // namespace crane::diagnosis

@@ -286,14 +286,10 @@ class Search {
   }
 
   void rank(const Fitted& f) {
-    Ranked ranked;
-    ranked.label = label_of(f.effects);
-    ranked.parameters = estimates(f);
-    ranked.train_gain = sum(found_.base.deviance) - sum(f.deviance);
+    Ranked& ranked = found_.ranking.emplace_back(ranked_against(found_.base, f));
     if (f.effects.size() == 1)
       ranked.p_value =
           p_value_[static_cast<std::size_t>(f.effects[0].candidate - study_.candidates().data())];
-    found_.ranking.push_back(ranked);
   }
 
   Study& study_;

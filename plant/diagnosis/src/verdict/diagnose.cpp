@@ -7,6 +7,7 @@
 #include "crane/diagnosis/kinematics.hpp"
 #include "experiment/next_experiment.hpp"
 #include "rules.hpp"
+#include "search/block_votes.hpp"
 #include "search/compare.hpp"
 #include "search/held_out.hpp"
 #include "search/intervals.hpp"

@@ -9,6 +9,7 @@
 #include "replay/standstill.hpp"
 #include "robust.hpp"
 #include "rules.hpp"
+#include "search/block_votes.hpp"
 #include "search/compare.hpp"
 #include "verdict/leftovers.hpp"
 #include "verdict/missing_force.hpp"
