@@ -25,7 +25,8 @@ struct Snapshot {
 /// nothing new has been discovered for 0.3 s, with keys 1.5 s; crane/state and crane/supervisor have arrived.
 /// A network that loses packets can delay the discovery of one process by seconds.
 [[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
-/// Only supervisor and state: the newest samples 0.3 s after the first, at most `timeout_s`.
+/// Listens to supervisor and state only, until 0.3 s after the first sample of both, at most for `timeout_s`.
+/// @return the newest samples
 [[nodiscard]] Snapshot safety_state(bus::Bus& bus, double timeout_s);
 
 /// {"nodes": [...], "unheard": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null,

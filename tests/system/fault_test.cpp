@@ -227,7 +227,7 @@ TEST_P(ObserverFault, DoesNotDisturbTheMove) {
         << ms(status.header.sample_time_ns - signal_ns) << " ms after the signal";
   const auto& states = observer().states();
   ASSERT_GT(states.size(), 200U);
-  const auto pauses = witness.take();  // of the computer: they cost ticks, too
+  const auto pauses = witness.take();  // each pause of the computer costs ticks, too
   EXPECT_LE(states.back().header.tick - states.front().header.tick + 1, states.size() + pauses.ticks);
   std::uint64_t most_lost = 0;
   for (const auto& [name, lost] : lost_ticks(observer()))

@@ -44,8 +44,8 @@ struct Struck {
   bool forged = false, lossy = false, hits_supervisor = false;
 };
 
-/// The signal may reach the supervisor after it has sent a command to the plant and before it sends this
-/// command to the recorder.
+/// A signal can stop the supervisor between two sends: the plant has received a command, and the recorder has
+/// not.
 bool names_a_command_that_the_recorder_did_not_get(const campaign::Run& run, std::int64_t time_ns) {
   const auto row = std::ranges::find(run.rows, time_ns, &campaign::Row::time_ns);
   return row != run.rows.end() && row->state.applied_command_tick == row->command.header.tick + 1;

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -10,14 +11,15 @@
 
 namespace crane::system_test {
 
+/// State of the crane when the fault begins.
 enum class When : std::uint8_t { idle, moving, stopping };
 inline constexpr std::array kMoments{"armed idle", "moving", "stopping"};
 
 struct Fault {
   const char* component;  ///< process that gets the signal; null: a forged topic
-  int signal;
-  const char* topic;
-  const char* vendor;
+  int signal;             ///< SIGKILL or SIGSTOP; 0: a forged topic
+  const char* topic;      ///< forged topic; null: a signal
+  const char* vendor;     ///< DDS vendor of the forger; empty: a signal
 };
 inline constexpr std::array kFaults{Fault{"trajectory_planner", SIGKILL, nullptr, ""},
                                     Fault{"trajectory_planner", SIGSTOP, nullptr, ""},
