@@ -24,11 +24,11 @@ class TimerWitness {
   TimerWitness(const TimerWitness&) = delete;
   TimerWitness& operator=(const TimerWitness&) = delete;
 
-  /// Wake-ups since the last call that were later than kPause_ns.
+  /// Pauses since the last call: wake-ups that were late by kPause_ns or more.
   struct Report {
-    int pauses = 0;              ///< their number
-    std::uint64_t ticks = 0;     ///< ticks of 10 ms that they may cost each process of a stack
-    std::int64_t latest_ns = 0;  ///< largest lateness
+    int pauses = 0;              ///< number of pauses
+    std::uint64_t ticks = 0;     ///< upper bound of the ticks of 10 ms that one process loses
+    std::int64_t latest_ns = 0;  ///< largest lateness of any wake-up
   };
   [[nodiscard]] Report take();
   /// False when the system denied real-time priority: then a busy processor looks like a pause.
