@@ -47,9 +47,9 @@ RecordedWriters::Operator& RecordedWriters::operator_of(const msg::Header& heade
   const auto found = operators_.find(key);
   if (found != operators_.end()) return found->second;
   auto bus = bus_of_(client, header.source, header.epoch);
-  auto requests = bus.publisher(topics::request);
   auto jogs = bus.publisher(topics::jog);
-  return operators_.emplace(key, Operator{std::move(bus), std::move(requests), std::move(jogs)})
+  auto requests = bus.publisher(topics::request);
+  return operators_.emplace(key, Operator{std::move(bus), std::move(jogs), std::move(requests)})
       .first->second;
 }
 

@@ -19,10 +19,12 @@ class RecordedWriters {
   using BusOf = std::function<bus::Bus(const std::string& name, crane_Source source, std::uint32_t epoch)>;
   /// All samples of one client come from one participant: the supervisor accepts crane/jog from the
   /// participant that requested the session.
+  /// A participant announces its writers in the order of their creation: a process that answers a request has
+  /// also discovered the writer of the stick.
   struct Operator {
     bus::Bus bus;
-    bus::Publisher<msg::Request> requests;
     bus::Publisher<msg::Jog> jogs;
+    bus::Publisher<msg::Request> requests;
   };
 
   explicit RecordedWriters(BusOf bus_of) : bus_of_{std::move(bus_of)} {}

@@ -86,7 +86,7 @@ TEST_P(Samples, ThatAreAcknowledgedCanBeTakenAtOnce) {
   constexpr std::uint64_t kSamples = 20;
   auto writer = from.publisher(topics::jog);
   auto reader = to.subscriber(topics::jog);
-  ASSERT_TRUE(eventually(to, [&] { return writer.matched() == 1; }));
+  ASSERT_TRUE(matched(to, writer, reader));
   for (std::uint64_t i = 0; i < kSamples; ++i) {
     msg::Jog sample{};
     sample.header.tick = i;
