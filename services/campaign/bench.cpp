@@ -106,7 +106,8 @@ bool Bench::run_until(const std::function<bool()>& holds, double longest_s) {
   return holds();
 }
 
-void Bench::request(const stack::OperatorRequest& wanted) {
+void Bench::request(stack::OperatorRequest wanted) {
+  wanted.seen_tick = row_.state.header.tick;
   last_request_ = operator_->send(wanted);
   note(wanted.kind);
   tick();
@@ -114,14 +115,16 @@ void Bench::request(const stack::OperatorRequest& wanted) {
 
 void Bench::request_without_id() {
   without_id_.emplace(*bus_, "campaign", 0);
-  stack::OperatorRequest wanted{
-      .kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target};
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE,
+                                .selected = setting_.selected,
+                                .target = setting_.target,
+                                .seen_tick = row_.state.header.tick};
   last_request_ = without_id_->send(wanted);
   tick();
 }
 
 void Bench::send(crane_RequestKind kind) {
-  last_request_ = operator_->send({.kind = kind});
+  last_request_ = operator_->send({.kind = kind, .seen_tick = row_.state.header.tick});
   note(kind);
 }
 

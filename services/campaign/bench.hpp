@@ -34,7 +34,7 @@ class Bench {
   /// Runs until `holds()` is true. @return false when it is not true within `longest_s`
   bool run_until(const std::function<bool()>& holds, double longest_s);
   void request(crane_RequestKind kind);
-  void request(const stack::OperatorRequest& wanted);
+  void request(stack::OperatorRequest wanted);
   void request_move();
   void request_without_id();  ///< a move whose id is 0
   /// Sends a request without running a tick.

@@ -99,6 +99,7 @@ void ForeignWriter::flood_requests(const Bench& bench, std::size_t count, bool l
   if (!requests_) requests_.emplace(bus_.publisher(topics::request));
   for (std::size_t i = 0; i < count; ++i) {
     msg::Request request{};
+    request.header.tick = bench.now().state.header.tick;
     request.id = next_id_++;
     runtime::assign(request.client, "flood");
     request.kind = crane_REQUEST_MOVE;

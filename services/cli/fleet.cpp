@@ -67,13 +67,18 @@ std::uint64_t FleetCrane::lost_ticks() const {
   return most;
 }
 
-Fleet::Fleet(runtime::BusOptions bus, const configuration::Rig& rig)
-    : bus_{[&bus] {
-        bus.crane += '*';
-        return runtime::bus_options(bus, "crane_bench", crane_SOURCE_OPERATOR, 0);
+Fleet::Operator::Operator(const runtime::BusOptions& options)
+    : bus{runtime::bus_options(options, "crane_bench", crane_SOURCE_OPERATOR, 0)},
+      client{bus, "crane_bench", experiments::unique_first_id()},
+      supervisor{bus.subscriber(topics::supervisor)} {}
+
+Fleet::Fleet(const runtime::BusOptions& bus, const configuration::Rig& rig)
+    : options_{bus},
+      bus_{[all = bus]() mutable {
+        all.crane += '*';
+        return runtime::bus_options(all, "crane_bench", crane_SOURCE_OPERATOR, 0);
       }()},
-      statuses_{bus_.subscriber(topics::node)},
-      operator_{bus_, "crane_bench", experiments::unique_first_id()} {
+      statuses_{bus_.subscriber(topics::node)} {
   while (axis_ + 1 < rig.drives.size() && !rig.drives[axis_].present) ++axis_;
   const auto& drive = rig.drives[axis_];
   const double range = drive.high_limit - drive.low_limit;
@@ -81,14 +86,16 @@ Fleet::Fleet(runtime::BusOptions bus, const configuration::Rig& rig)
 }
 
 void Fleet::add(std::string name, pid_t crane_up) {
+  auto options = options_;
+  options.crane = name;
+  operators_.emplace_back(options);
   cranes_.push_back({.name = std::move(name), .pid = crane_up, .started_ns = runtime::monotonic_ns()});
 }
 
 void Fleet::poll() {
   const auto now_ns = runtime::monotonic_ns();
   take_statuses(now_ns);
-  take_replies();
-  if (operates_ && now_ns >= next_ns_) send_next(now_ns);
+  for (std::size_t i = 0; operates_ && i < cranes_.size(); ++i) operate(operators_[i], cranes_[i], now_ns);
 }
 
 FleetCrane* Fleet::owner_of(pid_t process) {
@@ -114,37 +121,23 @@ void Fleet::take_statuses(std::int64_t now_ns) {
   }
 }
 
-FleetCrane* Fleet::crane_of_supervisor(std::uint32_t epoch) {
-  const auto found = std::ranges::find_if(cranes_, [epoch](const FleetCrane& crane) {
-    const auto status = crane.statuses.find("supervisor");
-    return status != crane.statuses.end() && status->second.header.epoch == epoch;
-  });
-  return found == cranes_.end() ? nullptr : &*found;
-}
-
-void Fleet::take_replies() {
-  operator_.receive();
-  for (const auto id : moves_sent_)
-    while (const auto reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR))
-      if (auto* crane = crane_of_supervisor(reply->header.epoch); crane != nullptr && reply->accepted)
-        ++crane->moves;
-}
-
-/// Until every crane has accepted a move: reset, arm, move in turn; a crane that is armed already refuses the
-/// reset and the arming. Afterwards only moves: a crane that has stopped stays stopped and accepts none.
-void Fleet::send_next(std::int64_t now_ns) {
-  const bool all_move = std::ranges::all_of(cranes_, [](const FleetCrane& crane) { return crane.moves > 0; });
-  const std::array kinds{crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_MOVE};
-  stack::OperatorRequest request;
-  request.kind = all_move ? crane_REQUEST_MOVE : kinds[requests_++ % kinds.size()];
-  next_ns_ = now_ns + (all_move ? kBetweenMoves_ns : kBetweenRequests_ns);
-  if (request.kind != crane_REQUEST_MOVE) {
-    (void)operator_.send(request);
-    return;
-  }
-  request.selected[axis_] = true;
-  request.target[axis_] = targets_[moves_sent_.size() % targets_.size()];
-  moves_sent_.push_back(operator_.send(request));
+/// A crane that is armed already refuses the reset and the arming. A crane that has stopped after its first
+/// move stays stopped and accepts no move.
+void Fleet::operate(Operator& by, FleetCrane& crane, std::int64_t now_ns) const {
+  constexpr std::array kInTurn{crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_MOVE};
+  while (const auto status = by.supervisor.take()) by.next.seen_tick = status->header.tick;
+  by.client.receive();
+  for (const auto id : by.moves_sent)
+    if (const auto reply = by.client.take_reply(id, crane_SOURCE_SUPERVISOR); reply && reply->accepted)
+      ++crane.moves;
+  if (now_ns < by.next_ns) return;
+  by.next_ns = now_ns + (crane.moves > 0 ? kBetweenMoves_ns : kBetweenRequests_ns);
+  by.next.kind = crane.moves > 0 ? crane_REQUEST_MOVE : kInTurn[by.requests++ % kInTurn.size()];
+  const bool moves = by.next.kind == crane_REQUEST_MOVE;
+  by.next.selected[axis_] = moves;
+  by.next.target[axis_] = moves ? targets_[by.moves_sent.size() % targets_.size()] : 0;
+  const auto id = by.client.send(by.next);
+  if (moves) by.moves_sent.push_back(id);
 }
 
 }  // namespace crane::cli

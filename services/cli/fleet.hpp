@@ -2,6 +2,7 @@
 /// Several cranes on this computer, each started by `crane up`, for `crane bench fleet`.
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,39 +37,49 @@ struct FleetCrane {
   [[nodiscard]] std::uint64_t lost_ticks() const;
 };
 
-/// Observes and operates all cranes of a fleet with one participant. The DDS partition PREFIX* matches the
-/// partitions of all cranes. Therefore every request reaches all cranes.
+/// Observes all cranes of a fleet with one participant, and operates each crane with a participant of its
+/// own.
 class Fleet {
  public:
-  /// @param bus  `bus.crane` is the common prefix of the names of the cranes
-  Fleet(runtime::BusOptions bus, const configuration::Rig& rig);
+  /// @param bus  `bus.crane` is the common prefix of the names of the cranes: the DDS partition PREFIX*
+  /// matches
+  ///   the partitions of all cranes
+  Fleet(const runtime::BusOptions& bus, const configuration::Rig& rig);
 
   void add(std::string name, pid_t crane_up);
-  /// Receives statuses and replies. After operate(), also sends requests: reset, arm and move in turn, until
-  /// every crane has accepted a move; then only moves.
+  /// Receives statuses and replies. After operate(), also sends requests to each crane: reset, arm and move
+  /// in turn, until the crane has accepted a move; then only moves.
   void poll();
   /// Permits poll() to send requests.
   void operate() { operates_ = true; }
   [[nodiscard]] const std::vector<FleetCrane>& cranes() const { return cranes_; }
 
  private:
-  void take_statuses(std::int64_t now_ns);
-  void take_replies();
-  void send_next(std::int64_t now_ns);
-  FleetCrane* owner_of(pid_t process);
-  FleetCrane* crane_of_supervisor(std::uint32_t epoch);
+  /// Operator of one crane.
+  struct Operator {
+    explicit Operator(const runtime::BusOptions& options);
+    bus::Bus bus;
+    stack::OperatorClient client;
+    bus::Subscriber<msg::SupervisorStatus> supervisor;
+    stack::OperatorRequest next{};
+    std::vector<std::uint64_t> moves_sent{};
+    std::size_t requests = 0;  ///< sent before the first accepted move
+    std::int64_t next_ns = 0;
+  };
 
+  void take_statuses(std::int64_t now_ns);
+  void operate(Operator& by, FleetCrane& crane, std::int64_t now_ns) const;
+  FleetCrane* owner_of(pid_t process);
+
+  runtime::BusOptions options_;
   bus::Bus bus_;
   bus::Subscriber<msg::NodeStatus> statuses_;
-  stack::OperatorClient operator_;
   std::vector<FleetCrane> cranes_;
+  std::deque<Operator> operators_;       ///< in the order of cranes_
   std::map<pid_t, std::size_t> owners_;  ///< index of the crane of a process
   std::size_t axis_ = 0;                 ///< the axis that moves
   std::array<double, 2> targets_{};      ///< of the moves in turn, m or rad
-  std::vector<std::uint64_t> moves_sent_;
   bool operates_ = false;
-  std::size_t requests_ = 0;
-  std::int64_t next_ns_ = 0;
 };
 
 }  // namespace crane::cli

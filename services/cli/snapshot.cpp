@@ -190,8 +190,8 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
 }
 
 Snapshot safety_state(bus::Bus& bus, double timeout_s) {
-  // A writer keeps its last 128 samples (1.3 s) for a reader that it has found. As soon as the reader has
-  // found the writer, all of them arrive at once: the first is up to 1.3 s old.
+  // A writer keeps up to 128 samples (1.3 s) for a reader that it has discovered, until the reader has
+  // discovered the writer. Then all of them arrive at once, the oldest first.
   constexpr std::int64_t kBacklog_ns = 300'000'000;
   std::optional<std::int64_t> first_ns;
   auto supervisors = bus.subscriber(topics::supervisor);

@@ -137,11 +137,20 @@ TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterItsOper
   }
 }
 
-TEST_F(InboxInRealTime, AStopActsHoweverOldItIs) {
-  seen_tick_ = 1;
-  send(1, 0);
+TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorNamesNoTick) {
+  seen_tick_ = 0;
+  send(1, 0, crane_REQUEST_ARM);
   inbox_.receive();
-  EXPECT_TRUE(inbox_.take_due(1'000'000));
+  EXPECT_FALSE(inbox_.take_due(1'000'000));
+  EXPECT_EQ(refusals(), 1U);
+}
+
+TEST_F(InboxInRealTime, AStopActsHoweverOldItIs) {
+  for (seen_tick_ = 0; seen_tick_ < 2; ++seen_tick_) {
+    send(1, 0);
+    inbox_.receive();
+    EXPECT_TRUE(inbox_.take_due(1'000'000));
+  }
 }
 
 TEST_F(Inbox, InLockstepHasNoAgeLimitBecauseTimePassesOnlyWithTheTicks) {

@@ -31,6 +31,7 @@ class RunInRealTime : public SupervisorInRealTime {
   }
   void ask(crane_RequestKind kind) {
     msg::Request request{};
+    request.header.tick = tick_;
     request.id = ++last_id_;
     request.kind = kind;
     request.selected[0] = true;

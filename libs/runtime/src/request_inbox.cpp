@@ -53,7 +53,7 @@ bool RequestInbox::receive() {
 /// A lost connection delays a request until the middleware can send it again, at most for the lease.
 bool RequestInbox::is_old(const msg::Request& request, std::uint64_t tick) const {
   const auto seen = request.header.tick;
-  if (schedules_ || seen == 0 || stops(request)) return false;
+  if (schedules_ || stops(request)) return false;
   return (tick > seen ? tick - seen : seen - tick) > longest_age_ticks_;
 }
 
@@ -61,8 +61,9 @@ void RequestInbox::refuse_untimely(std::uint64_t tick) {
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     const auto& request = waiting.request;
     if (is_old(request, tick)) {
-      reply(request, request.header, false,
-            "the request has arrived more than 2 s after its operator saw the crane: repeat it");
+      reply(
+          request, request.header, false,
+          "the request has arrived more than 2 s after its operator saw the crane (header.tick): repeat it");
       return true;
     }
     const bool too_late = request.apply_tick > tick && request.apply_tick - tick > kFarthest_ticks;

@@ -195,7 +195,9 @@ struct Rivals : Compared {
     rival = base;
     rival.effects = {{&other, {}}};
   }
-  [[nodiscard]] double votes_for_rival() const { return frequencies(fitted, {&rival}, base, kSeed).at(0); }
+  [[nodiscard]] double votes_for_rival() const {
+    return shares_of_votes(fitted, {&rival}, base, kSeed).at(0);
+  }
   Fitted rival;
 };
 

@@ -17,7 +17,8 @@ struct ShortForce {
 
 /// The most significant pulse. Each pulse is fitted alone to the whitened residual; t is its amplitude over
 /// the standard deviation by the noise model. The standard uncertainty of t consists of
-/// - noise and disturbance: 1.4826 times the median of |t| over all pulses, which a few forces do not change
+/// - noise and disturbance: 1.4826 times the median of |t| over all pulses of the same duration. A few forces
+///   do not change the median
 ///   (docs/diagnosis.md, 9). For pulses during a motion of the support, the median over these pulses, if it
 ///   is larger: the measured motion of the support has an error;
 /// - the permitted share of the swing, in all directions, around the pulse.

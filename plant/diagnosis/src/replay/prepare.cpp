@@ -1,4 +1,5 @@
-/// Measured motion of a run: on the grid, smoothed, and with the noise of its resolution.
+/// Measured motion of a run on the time grid of the simulation: smoothed motion and quantisation noise of
+/// each output.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,8 @@ namespace {
 
 constexpr double kSmoothing_s = 0.03;
 
-/// Standard deviation of rounding to the resolution of the data; without it, to the counts of the rig file.
+/// Standard deviation of the rounding error of each output. The step is the resolution of the data; if it is
+/// unknown, one count of the encoder in the rig file.
 std::array<double, kOutputs> quantisation_noise(const Run& run, const configuration::Rig& rig) {
   constexpr double kLeast = 1e-7;
   constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
@@ -24,8 +26,8 @@ std::array<double, kOutputs> quantisation_noise(const Run& run, const configurat
 
 }  // namespace
 
-/// The motion of a drive comes from a spline, because smoothing would reduce the excitation of the swing:
-/// second differences alone by 0.1 %.
+/// A spline differentiates the position of a drive, because its acceleration excites the swing and smoothing
+/// would reduce it. Second differences reduce it by 0.1 %.
 Motion motion_of(Output output, const std::vector<double>& measured, double period_s) {
   const bool drive = output == kTrolleyPosition || output == kSlewAngle;
   return drive ? spline(measured, period_s)

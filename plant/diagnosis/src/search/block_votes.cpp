@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kVotes = 500;
 
-/// Clamps each difference to twice the 95 % quantile of the magnitudes, so that no block outweighs the other
-/// blocks: one slip that comes earlier or later changes a block as much as an effect changes all blocks
-/// together.
+/// Limits each difference to twice the 95 % quantile of the magnitudes. Without the limit, one block can
+/// outweigh all others: a slip that comes a little earlier or later changes its block as much as a real
+/// effect changes all blocks together.
 void limit(std::vector<double>& differences) {
   if (differences.empty()) return;
   std::vector<double> sizes;
@@ -66,8 +66,8 @@ ShowsIn only_in(const Fitted& a, const Fitted& b) {
   return parts;
 }
 
-/// Share of the fitted values that are further amounts of an effect without significant size. The simpler
-/// form of the effect, without these amounts, explains the data as well.
+/// Share of the fitted values that an effect does not need: amounts after its first that do not differ
+/// significantly from their null value. The effect explains the data as well without them.
 double superfluous_share(const Fitted& fitted) {
   std::size_t first = 0, superfluous = 0;
   for (const Effect& effect : fitted.effects) {
@@ -81,7 +81,7 @@ double superfluous_share(const Fitted& fitted) {
   return first > 0 ? static_cast<double>(superfluous) / static_cast<double>(first) : 0;
 }
 
-/// Deviance by block, without the penalty of superfluous amounts.
+/// Deviance by block, without the penalty of the values that the effects do not need.
 Blocks deviance_of_needed(const Fitted& fitted) {
   Blocks deviance = fitted.deviance;
   const double penalty = sum(fitted.left_out) > 0 ? fitted.penalty / sum(fitted.left_out) : 0;
@@ -91,16 +91,15 @@ Blocks deviance_of_needed(const Fitted& fitted) {
   return deviance;
 }
 
-/// Decrease of the deviance from `best` to `rival` by block, in the parts in which the effects that only
-/// `best` has are visible. 0 in the other parts.
-std::vector<double> advantage(const Blocks& of_rival, const Blocks& of_best, const ShowsIn& parts,
-                              std::size_t drive_blocks) {
-  std::vector<double> margins;
-  for (std::size_t i = 0; i < of_best.size(); ++i) {
+/// Decrease of the deviance by block in these parts of the data; 0 in the other parts.
+std::vector<double> decrease(const Blocks& now, const Blocks& before, const ShowsIn& parts,
+                             std::size_t drive_blocks) {
+  std::vector<double> decreases;
+  for (std::size_t i = 0; i < before.size(); ++i) {
     const bool counts = i < drive_blocks ? parts.drive : parts.load;
-    margins.push_back(counts ? of_best[i] - of_rival[i] : 0);
+    decreases.push_back(counts ? before[i] - now[i] : 0);
   }
-  return margins;
+  return decreases;
 }
 
 /// A rival of the best hypothesis in one vote.
@@ -112,17 +111,17 @@ struct Rival {
 Rival rival_of(const Fitted& best, const Fitted& rival, const Fitted& base) {
   const ShowsIn parts = only_in(best, rival);
   const Blocks of_best = deviance_of_needed(best);
-  Rival result{advantage(deviance_of_needed(rival), of_best, parts, best.train.drive_blocks), 0};
+  Rival result{decrease(deviance_of_needed(rival), of_best, parts, best.train.drive_blocks), 0};
   limit(result.margins);
-  const std::vector<double> gain = advantage(of_best, base.deviance, parts, best.train.drive_blocks);
+  const std::vector<double> gain = decrease(of_best, base.deviance, parts, best.train.drive_blocks);
   result.indistinct = rules::kIndistinct * std::max(0.0, sum(gain));
   return result;
 }
 
 }  // namespace
 
-std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                const Fitted& base, std::uint64_t seed) {
+std::vector<double> shares_of_votes(const Fitted& best, const std::vector<const Fitted*>& rivals,
+                                    const Fitted& base, std::uint64_t seed) {
   std::vector<Rival> all;
   all.reserve(rivals.size());
   for (const Fitted* rival : rivals) all.push_back(rival_of(best, *rival, base));

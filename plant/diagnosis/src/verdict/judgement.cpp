@@ -167,7 +167,7 @@ class Judgement {
       if (fitted.effects.size() == best_.effects.size() && lacks_a_cause(fitted) &&
           possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
-    const std::vector<double> picked = frequencies(best_, equals, all_.base, seed_);
+    const std::vector<double> picked = shares_of_votes(best_, equals, all_.base, seed_);
     double left = 1;
     for (std::size_t r = 0; r < equals.size(); ++r) {
       left -= picked[r];

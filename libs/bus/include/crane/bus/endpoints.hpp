@@ -53,9 +53,9 @@ class UntypedPublisher {
   UntypedPublisher& operator=(UntypedPublisher&&) noexcept;
 
   [[nodiscard]] bool assert_liveliness();
-  /// Waits until all matched readers have acknowledged all samples of this publisher. Each reader can then take
-  /// them, except those that were sent before the reader discovered this publisher: a reader acknowledges them
-  /// and does not receive them. @return false when a reader has not acknowledged within `timeout`
+  /// Waits until all matched readers have acknowledged all samples of this publisher. Each reader can then
+  /// take them. A reader also acknowledges samples that were sent before it discovered this publisher, but
+  /// does not receive them. @return false when a reader has not acknowledged within `timeout`
   [[nodiscard]] bool wait_until_received(std::chrono::nanoseconds timeout);
   /// Number of matched readers.
   [[nodiscard]] int matched() const;

@@ -21,7 +21,8 @@ class RequestInbox {
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
   /// In real time, a request whose header.tick differs by more than this from the present tick is refused:
-  /// the operator tools wait as long for an answer. Afterwards their operator does not expect a motion.
+  /// the operator tools wait as long for an answer. Afterwards their operator does not expect a motion. A
+  /// sender that leaves header.tick at 0 moves nothing later than 2 s after the start.
   static constexpr double kLongestAge_s = 2;
 
   /// @param kinds  kinds of request that this process executes; it ignores all others
