@@ -20,9 +20,10 @@ class CommandEcho {
   static constexpr std::size_t kRemembered = 64;
   /// Number of consecutive contradicting states that end the supervisor.
   static constexpr int kStates = 2;
-  /// Longest time from the last release command to a closed brake. A brake that is open after this time has
-  /// failed to close, or another program has opened it. The time is longer than the detection of a brake that
-  /// does not close (closing time and 0.11 s).
+  /// Longest time from the last command to open a brake until the brake must be closed: 0.5 s with a period
+  /// of 10 ms. A brake that is open after this time has failed to close, or another program has opened the
+  /// brake. With this period, the time is longer than the detection of a brake that does not close (closing
+  /// time and 0.11 s).
   static constexpr std::uint64_t kBrake_ticks = 50;
 
   /// @param present  axes that have a drive
@@ -43,7 +44,8 @@ class CommandEcho {
   /// Call after a restart of the bridge, whose ticks start at 0.
   void restart() noexcept { *this = CommandEcho{present_}; }
 
-  /// @return true when the bridge executes commands of another program
+  /// @return true when kStates consecutive states show a voltage that this supervisor has not commanded, or a
+  /// brake that is open without a command
   [[nodiscard]] bool contradicts(const msg::State& state) noexcept {
     volts_ = first_tick_ && unexplained_volts(state);
     in_a_row_ = first_tick_ && (volts_ || unexplained_brake(state)) ? in_a_row_ + 1 : 0;

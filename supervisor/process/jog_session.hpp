@@ -6,11 +6,11 @@
 /// binds the session to the DDS writer of the sample. All other samples have no effect: a program that copies
 /// client, request id and start-up number cannot take over the session by sending first.
 ///
-/// The stick is released when `engaged` is false, when the newest sample is ahead of `tick`, or when this
-/// sample arrived more than kSilence_s ago. The stick is faulty after a silence of kSilence_s, with a tick
-/// older than kSilence_s, with a deflection that is not in [-1, 1], or when it has been deflected for
-/// kLongest_s without a break. A faulty stick counts as released until the operator releases the stick: the
-/// motion does not resume by itself.
+/// A sample with `engaged` = false or with a tick ahead of `tick` releases the stick. During a silence of
+/// more than kSilence_s, the deflection is 0. The stick is faulty when a deflection follows such a silence,
+/// with a tick older than kSilence_s, with a deflection that is not in [-1, 1], or when the stick has been
+/// deflected for kLongest_s without a break. A faulty stick counts as released until the operator releases
+/// the stick: the motion does not resume by itself.
 #include <array>
 #include <cstdint>
 #include <optional>

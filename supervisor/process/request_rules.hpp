@@ -16,9 +16,10 @@ namespace crane::supervisor {
 [[nodiscard]] bool moves_axes(const msg::Request& request);
 /// @return why axes, targets or sines of the request are not permitted; empty when they are permitted
 [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
-/// problem_of(), and problems that depend on the present `position`: a reference of sines that starts far
-/// from it (Limits::largest_follow_jump), and a zone that contains the target or lies in the straight path
-/// (in the coordinates of the axes) from `position` to the target.
+/// problem_of(), and problems that depend on the present `position`. For a reference to follow: a reference
+/// of sines that starts far from `position` (Limits::largest_follow_jump), and a zone that contains the
+/// target or lies in the straight path (in the coordinates of the axes) from `position` to the target. For a
+/// move: a zone that contains the target, and no path around the zones.
 [[nodiscard]] std::string problem_at(const msg::Request& request, const Limits& limits,
                                      const PerAxis& position);
 /// @return why the operating mode does not permit the request at `position`; empty when it does

@@ -100,7 +100,7 @@ void check_margins(const Limits& limits, Problems& problems) {
   }
   const double loss_s = demand_loss_to_braked_s(limits);
   problems.require(loss_s <= kDemandLossToBrakedMax_s + 1e-9, "demand_loss_to_braked_s", loss_s,
-                   "must be <= 0.1: lower demand_stale_after_ticks, period_s or brake_close_time_s");
+                   "must be <= 0.1: lower demand_stale_after_s, period_s or brake_close_time_s");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr std::array<ModeRule, kModes> kModeRules{{
     {"automatic", false, Moves::all, true, 1, 1, "a program requests moves; the stick is refused"},
     {"manual", true, Moves::none, false, 1, 1, "an operator drives with the stick; moves are refused"},
     {"maintenance", true, Moves::short_steps, false, 0.1, 0.25,
-     "people work near the crane: stick and short moves, at reduced speed"},
+     "adjustment and test of the crane: stick and short moves, at reduced speed"},
 }};
 
 std::string in_words(Moves moves) {

@@ -12,6 +12,7 @@ constexpr int kCounterEnd = 1'000'000;
 bool all_finite(const Sample& sample) {
   return std::isfinite(sample.time_s) &&
          std::ranges::all_of(sample.position, [](double x) { return std::isfinite(x); }) &&
+         std::ranges::all_of(sample.applied_v, [](double x) { return std::isfinite(x); }) &&
          std::isfinite(sample.swing_radial_rad) && std::isfinite(sample.swing_tangential_rad);
 }
 

@@ -94,11 +94,20 @@ TEST(Supervisor, StopsWhenTheStateStopsComing) {  // S5
 }
 
 TEST(Supervisor, TreatsAStateThatIsNotFiniteAsMissing) {
-  Timeline t;
-  t.to_run();
-  t.world.sample.swing_radial_rad = kNotANumber;
-  t.ticks(3);
-  EXPECT_EQ(t.cause(), Cause::state_stale);
+  using Value = double& (*)(Timeline&);
+  constexpr std::array<Value, 5> kValues{
+      [](Timeline& t) -> double& { return t.bridge_clock_ahead_s; },
+      [](Timeline& t) -> double& { return t.world.sample.position[1]; },
+      [](Timeline& t) -> double& { return t.world.sample.swing_radial_rad; },
+      [](Timeline& t) -> double& { return t.world.sample.swing_tangential_rad; },
+      [](Timeline& t) -> double& { return t.world.sample.applied_v[0]; }};
+  for (std::size_t i = 0; i < kValues.size(); ++i) {
+    Timeline t;
+    t.to_run();
+    kValues[i](t) = kNotANumber;
+    t.ticks(3);
+    EXPECT_EQ(t.cause(), Cause::state_stale) << i;
+  }
 }
 
 TEST(Supervisor, LateTicksInARowStopTheCrane) {  // S14

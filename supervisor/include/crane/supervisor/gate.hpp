@@ -14,7 +14,7 @@ inline constexpr double kRejectionRatio = 20;
 struct GateInput {
   bool arrived = false;                          ///< true: the demand of this tick has arrived
   PerAxis demand_v{};                            ///< V, any value including NaN; valid when arrived
-  bool armed = false;                            ///< true: the output reaches the drives; false: it is 0 V
+  bool armed = false;                            ///< drives_active(); false: the output is 0 V
   AxisFlags block_positive{}, block_negative{};  ///< from Envelope
 };
 

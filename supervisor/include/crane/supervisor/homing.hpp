@@ -13,7 +13,7 @@ enum class HomingPhase : std::uint8_t {
   back_off,  ///< away from the mark, until the axis is `back_off` beyond the point at which the switch opened
   approach,  ///< towards the mark at the approach speed, until the mark is active
   leave,     ///< as back_off; during this phase the bridge must report the mark as found
-  done       ///< the position is known; the speed is 0
+  done       ///< the axis has left the mark; the speed is 0. Then the bridge sets the position
 };
 
 struct HomingInput {

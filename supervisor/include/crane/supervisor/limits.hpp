@@ -1,5 +1,6 @@
 #pragma once
-/// Limits and times of the supervisor. The rig file sets them; they do not change afterwards.
+/// Limits and times of the supervisor, constant during a run. limits_of() takes some of them from the rig
+/// file; the others keep the defaults below.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -19,7 +19,7 @@ struct MotionMemory {
 void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis& position,
              MotionMemory& memory) noexcept;
 
-/// True when every axis that the crane has moved less than standstill_speed * standstill_time_s for
+/// True when every present axis has stayed within standstill_speed * standstill_time_s of one position for
 /// standstill_time_s.
 [[nodiscard]] bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) noexcept;
 
@@ -38,7 +38,7 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
 
 /// Call at every tick with a sample while the brakes are commanded closed. The first call stores position and
 /// speed.
-/// @return true when a brake has not closed: an axis has moved farther than twice its braking distance plus
+/// @return true when a brake has not closed: an axis has moved farther than twice its stopping distance plus
 ///   brake_slip, or its brake does not report closed in time
 [[nodiscard]] bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
                                 const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;

@@ -12,11 +12,11 @@ namespace crane::supervisor {
 
 /// States in which a rule is checked.
 enum class Scope : std::uint8_t {
-  restart,         ///< all states except ESTOP and FAULT
+  restart,         ///< all states except ESTOP and FAULT; step() handles a restart before the other rules
   always,          ///< all states
   past_self_test,  ///< all states except BOOT and SELFTEST
   selftest,        ///< SELFTEST
-  armed,           ///< states with open or opening brakes: ARMING, HOLD, RUN, STOP_C1
+  armed,           ///< ARMING, HOLD, RUN, STOP_C1; in ARMING and STOP_C1 the brakes may be closed
   arming           ///< ARMING
 };
 

@@ -20,7 +20,7 @@ using Requests = std::array<bool, kRequests>;  ///< indexed by Request; true: re
 /// Inputs of one tick. The value false of a flag is healthy, unless the comment of the flag begins with
 /// "true:".
 struct Inputs {
-  double now_s = 0;  ///< time of the sample, never runs backwards
+  double now_s = 0;  ///< s, clock of the supervisor (TickInput::now_s)
   SelfTest self_test = SelfTest::not_started;
   bool state_stale = false;
   bool demand_stale = false;
@@ -37,7 +37,7 @@ struct Inputs {
   bool second_writer = false;
   bool configuration_differs = false;  ///< processes of the loop have different rig files or controllers
   bool foreign_command = false;      ///< the bridge outputs a voltage that this supervisor has not commanded
-  bool bridge_restarted = false;     ///< a new bridge writes crane/state and has not passed the self-test
+  bool bridge_restarted = false;     ///< this is the first tick of a new bridge
   bool position_doubtful = false;    ///< the restart has made the position of an axis doubtful, and no reset
                                      ///< has confirmed this position
   std::size_t doubtful_axis = 0;     ///< first axis with such a position, < kAxes

@@ -13,14 +13,14 @@ namespace crane::supervisor {
 
 /// The part of crane/state that the supervisor uses.
 struct Sample {
-  double time_s = 0;  ///< time at which the encoders were latched, clock of the bridge
+  double time_s = 0;  ///< time at which the encoders were sampled, clock of the bridge
   PerAxis position{};
   double swing_radial_rad = 0;
   double swing_tangential_rad = 0;
   AxisFlags brake_closed{};
   AxisFlags limit_low{}, limit_high{};
   bool estop_pressed = false;
-  bool command_stale = false;    ///< true: the bridge has latched an old or missing command
+  bool command_stale = false;    ///< true: the bridge has latched because of an old or missing command
   bool command_invalid = false;  ///< true: the bridge has latched for any other reason
   bool watchdog_dropped = false;
   std::uint32_t overruns = 0;    ///< number of late ticks since the start of the bridge
@@ -35,11 +35,14 @@ struct Sample {
 [[nodiscard]] PendulumInput pendulum_input(const Sample& sample) noexcept;
 
 struct TickInput {
-  /// Clock of the supervisor, never runs backwards; it measures silence and idle time.
+  /// s, clock of the supervisor: time of the sample, or of the step when no state has arrived. A late sample
+  /// can be older than the preceding step without a state. The clock measures silence and idle time.
   double now_s = 0;
   std::uint64_t tick = 0;
   bool state_arrived = false;  ///< false: no state arrived in time; the step runs without a state
-  Sample sample{};  ///< valid when state_arrived; a sample with a value that is not finite counts as missing
+  /// Valid when state_arrived. A sample whose time, position, swing angle or applied voltage is not finite
+  /// counts as missing.
+  Sample sample{};
   /// true: a new bridge writes crane/state from this tick on; its ticks start at 0
   bool bridge_restarted = false;
   bool demand_arrived = false;

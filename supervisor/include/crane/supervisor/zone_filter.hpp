@@ -9,8 +9,8 @@
 /// Notation, horizontal, in coordinates of the ground: p position of the suspension point, y position of the
 /// load, n = |y - p|. w speed of the load (three-dimensional), v speed of an axis, D travel of an axis until
 /// standstill, D_p and v_p the same for the suspension point, t the duration of this travel, T the period, L
-/// the cable length. L lies in [L (1 - cable_error), L (1 + cable_error)]; every term uses the less
-/// favourable end of this interval.
+/// the measured cable length. The true length lies in [L (1 - cable_error), L (1 + cable_error)]; every term
+/// uses the less favourable end of this interval.
 ///
 /// 1. Travel of an axis. The voltages V of the previous, the present and the next tick are known. Friction
 ///    may or may not act. Therefore only voltages in the direction of the travel count:

@@ -78,11 +78,11 @@ class Bus {
 
   /// From now on, `on_arrival` is called whenever a sample of `topic` has arrived at a subscriber of this
   /// bus, and wait() sleeps until its timeout. The calling thread is a receive thread of the vendor, or a
-  /// thread of this process that publishes. The calling thread may hold locks of the vendor, and several
-  /// threads may call at the same time. `on_arrival` may take samples and publish other topics. It must not
-  /// wait for another thread. It must not publish `topic`: Cyclone DDS runs one callback of a reader at a
-  /// time, and the callback of the new sample would wait for the present one forever. Call while no
-  /// subscriber of this bus exists.
+  /// thread of this process that publishes. The calling thread may hold locks of the vendor. Several
+  /// threads may call at the same time: `on_arrival` must ensure that its calls of take and publish do not
+  /// overlap (crane/runtime/turn.hpp). `on_arrival` must not wait for another thread. It may publish other
+  /// topics, but not `topic`: Cyclone DDS runs one callback of a reader at a time, and the callback of the
+  /// new sample would wait for the present one forever. Call while no subscriber of this bus exists.
   void call_on_arrival(ArrivalHandler on_arrival);
 
   /// Participants of this crane whose messages have another version. This bus drops all their samples.

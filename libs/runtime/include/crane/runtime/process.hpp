@@ -63,8 +63,8 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 [[nodiscard]] const control::Controller& chosen_controller(const std::string& name,
                                                            const configuration::Rig& rig);
 
-/// Start-up number of a process: random, never 0. Start-up numbers are compared for equality only, so that
-/// clock differences between hosts have no effect.
+/// Start-up number of a process: random, never 0. A start-up number is not a time, so that clock differences
+/// between hosts have no effect. Only SoleSupervisor compares two start-up numbers by size.
 [[nodiscard]] std::uint32_t random_epoch();
 
 /// Time for which a process searches for another writer before its first sample. Discovery across vendors can
