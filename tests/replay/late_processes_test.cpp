@@ -46,7 +46,10 @@ class LateStack {
   void suspend(crane_Source source, double seconds) {
     stack_.suspend(source, stack_.now_ns() + std::llround(seconds * 1e9));
   }
-  void ask(const stack::OperatorRequest& wanted) { last_id_ = operator_.send(wanted); }
+  void ask(stack::OperatorRequest wanted) {
+    wanted.seen_tick = newest_tick_;
+    last_id_ = operator_.send(wanted);
+  }
   /// Deflects the stick of the session that was requested last, for one tick.
   void deflect(double slew, bool engaged = true) {
     msg::Jog jog{};
