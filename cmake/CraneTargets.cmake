@@ -53,12 +53,13 @@ endfunction()
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE] | LOOP])
 # GoogleTest program; each TEST becomes one CTest test. SERIAL: the tests of this program run one after the other (real time, real
 # DDS), beside tests of other programs, each of which has DDS domains of its own. The program with the longest TIMEOUT begins first,
-# because its tests form the longest chain. ALONE: no other test runs at the same time. Tests are ALONE when
-# they require that the loop loses no tick, judge reactions to the millisecond, require that a handshake of DDS Security ends in
-# time, or when their floods occupy the real-time scheduling of all stacks; they have the label "alone". SERIAL tests have the
-# main() of tests/real_time: a failure is final unless a bare timer proves that the computer paused. All other programs carry the
-# label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a crane moves;
-# they carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
+# because its tests form the longest chain. ALONE: no other test runs at the same time. Tests are ALONE when they require that the
+# loop loses no tick, judge reactions to the millisecond, or require that a handshake of DDS Security ends in time, or when their
+# floods occupy the real-time scheduling of all stacks; they have the label "alone". SERIAL tests have the main() of
+# tests/real_time: a failure is final unless a bare timer proves that the computer paused. All other programs carry the label "unit",
+# unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a crane moves; they carry the
+# label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too. TIMEOUT ends a test that hangs; it
+# limits no computation, because tests that compute get only the time that the stacks leave (deploy/test).
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)

@@ -37,13 +37,11 @@ struct FleetCrane {
   [[nodiscard]] std::uint64_t lost_ticks() const;
 };
 
-/// Observes all cranes of a fleet with one participant, and operates each crane with a participant of its
-/// own.
+/// Observes all cranes of a fleet with one participant, whose DDS partition PREFIX* matches the partitions of
+/// all cranes. Operates each crane with a participant of its own.
 class Fleet {
  public:
-  /// @param bus  `bus.crane` is the common prefix of the names of the cranes: the DDS partition PREFIX*
-  /// matches
-  ///   the partitions of all cranes
+  /// @param bus  `bus.crane` is the common prefix of the names of the cranes
   Fleet(const runtime::BusOptions& bus, const configuration::Rig& rig);
 
   void add(std::string name, pid_t crane_up);
