@@ -114,7 +114,8 @@ int main(int argc, char** argv) {
       "Diagnose generated data with known, hidden causes, and print the table of targets. The generators\n"
       "share no code with the diagnosis. Each set adds one JSON line to the file of --results; sets that "
       "the\n"
-      "file already contains are omitted, so that a run can be interrupted, continued and extended."};
+      "file already contains are omitted, so that a run can be interrupted, continued and extended.",
+      "crane bench diagnosis"};
   app.add_option(
          "--deck", options.deck,
          "truth: cranes of tests/truth; mujoco: cranes of tests/truth_mujoco, with widely varied conditions")

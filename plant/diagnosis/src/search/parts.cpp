@@ -55,4 +55,13 @@ Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all, con
   return whole;
 }
 
+std::vector<Fitted> merged(std::vector<Fitted> some, const std::vector<Fitted>& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  std::sort(some.begin(), some.end(), less);
+  std::vector<Fitted> once;
+  for (const Fitted& fitted : some)
+    if (find(once, fitted.effects) == nullptr) once.push_back(fitted);
+  return once;
+}
+
 }  // namespace crane::diagnosis

@@ -22,4 +22,7 @@ void keep(std::vector<Fitted>& all, const Fitted& fitted);
 [[nodiscard]] Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all,
                                              const Fitted& given);
 
+/// The hypotheses of both lists, each once, in the order of decreasing likelihood.
+[[nodiscard]] std::vector<Fitted> merged(std::vector<Fitted> some, const std::vector<Fitted>& more);
+
 }  // namespace crane::diagnosis

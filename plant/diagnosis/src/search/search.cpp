@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "rules.hpp"
 #include "search/compare.hpp"
 #include "search/initial_values.hpp"
 #include "search/parts.hpp"
+#include "search/prospects.hpp"
 #include "search/selection.hpp"
 
 namespace crane::diagnosis {
@@ -23,10 +25,13 @@ constexpr std::size_t kBeam = 2;
 constexpr std::size_t kPaired = 3;
 /// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
-/// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
-/// largest likelihood, and of the others those with the largest reduction of an error. With fine sensors, the
-/// likelihood prefers small errors of the times to the cause of a large error.
-constexpr std::size_t kLikeliest = 2, kSmallestError = 2;
+
+/// Score test beside a hypothesis, which its deviance identifies.
+struct Scored {
+  Effects effects;
+  Blocks deviance;
+  ScoreTable table;
+};
 
 Effects and_one(Effects effects, const Candidate* candidate) {
   effects.push_back({candidate, {}});
@@ -50,21 +55,21 @@ class Search {
     if (level.empty()) return finished();
     if (accept_one_of(level)) {
       // With the noise of the best hypothesis, the predictions of the score test are closer.
-      extend(base_in(found.best.nuisance), kFirst);
-      level = with(std::move(level), refit_likeliest());
+      extend_towards(found.best, base_in(found.best.nuisance), kFirst);
+      level = merged(std::move(level), refit_likeliest());
       accept_one_of(level);
       while (level.front().effects.size() < request_.most_effects) {
         const std::size_t size = level.front().effects.size();
         if (size == 1) try_pairs(level);
         for (std::size_t i = 0; i < std::min(kBeam, level.size()); ++i) {
           request_.progress(share_done(size, i), "search for a further cause");
-          const double p_value = extend(level[i], kExtensions);
+          const double p_value = extend_towards(found.best, level[i], kExtensions);
           if (i == 0 && p_value > rules::kSignificant && found.best.deviance.size() >= kFewBlocks) break;
         }
         level = refit_likeliest();
         if (level.empty()) break;
         refit_parts_of_first(level);
-        if (less(level.front(), found.best)) level = with(std::move(level), exchanged(level.front()));
+        if (less(level.front(), found.best)) level = merged(std::move(level), exchanged(level.front()));
         if (!accept_one_of(level)) break;
       }
     }
@@ -87,17 +92,6 @@ class Search {
   [[nodiscard]] Fitted base_in(const Nuisance& nuisance) {
     study_.whiten_with(nuisance);
     return study_.base_model();
-  }
-
-  /// The hypotheses of both lists, each once, in the order of decreasing likelihood.
-  static std::vector<Fitted> with(std::vector<Fitted> level, const std::vector<Fitted>& more) {
-    level.insert(level.end(), more.begin(), more.end());
-    std::sort(level.begin(), level.end(), less);
-    std::vector<Fitted> once;
-    for (const Fitted& fitted : level)
-      if (std::ranges::none_of(once, [&](const Fitted& f) { return same(f.effects, fitted.effects); }))
-        once.push_back(fitted);
-    return once;
   }
 
   /// Refits every hypothesis that lacks one effect of `given`, from the values of `given`. The search need
@@ -135,7 +129,7 @@ class Search {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       const Effects rest = without(whole.effects, i);
-      if (const Fitted* part = find(found_.all, rest)) extend(*part, kExchanged);
+      if (const Fitted* part = find(found_.all, rest)) extend_towards(whole, *part, kExchanged);
     }
     return refit_likeliest();
   }
@@ -175,10 +169,13 @@ class Search {
   /// hypothesis leaves a line in the swing, a cause that adds a natural frequency is fitted as well: the
   /// noise model describes the line as a disturbance, and the score test hardly sees it.
   /// @return p value of the largest score; the level of a line, if the hypothesis leaves one
-  double extend(const Fitted& given, std::size_t count, std::vector<const Candidate*> always = {}) {
+  /// @param needed decrease of the deviance; a candidate that cannot reach it is fitted only if it is in
+  ///   `always`
+  double extend(const Fitted& given, std::size_t count, std::vector<const Candidate*> always = {},
+                double needed = 0) {
     const Fitted there = given;  // `all` grows
     study_.whiten_training(there.nuisance);
-    ScoreTable scores = study_.score(there.effects, there.train, request_.seed + there.effects.size());
+    ScoreTable scores = scores_of(there);
     const std::vector<const Candidate*> ringing = initial_values_.add_of_lines(there, request_.seed, scores);
     always.insert(always.end(), ringing.begin(), ringing.end());
     if (there.effects.empty()) {
@@ -197,12 +194,30 @@ class Search {
       (std::ranges::find(always, candidate) != always.end() ? wanted : left).push_back(score);
     }
     for (const Score& score : strongest(std::move(left), count, std::move(wanted))) {
+      const Candidate& candidate = study_.candidates()[score.candidate];
+      const bool required = std::ranges::find(always, &candidate) != always.end();
+      if (!required && reachable_decrease(score, candidate, there) < needed) continue;
       const Effects start = initial_values_.of(there, score);
-      if (there.effects.empty())
-        request_.progress(0.1, "fit of " + study_.candidates()[score.candidate].label());
+      if (there.effects.empty()) request_.progress(0.1, "fit of " + candidate.label());
       tried_.push_back(study_.first_fit(initial_values_.with_new_wave(start, there), there));
     }
     return ringing.empty() ? scores.p_value : rules::kSignificant.value;
+  }
+
+  /// Scores beside a hypothesis. @pre the study is whitened with its nuisance parameters
+  const ScoreTable& scores_of(const Fitted& given) {
+    const auto known = std::ranges::find_if(scored_, [&](const Scored& scored) {
+      return same(scored.effects, given.effects) && scored.deviance == given.deviance;
+    });
+    if (known != scored_.end()) return known->table;
+    const std::uint64_t seed = request_.seed + given.effects.size();
+    return scored_.emplace_back(given.effects, given.deviance, study_.score(given.effects, given.train, seed))
+        .table;
+  }
+
+  /// Fits only those of the strongest candidates that may make `given` as likely as `best`.
+  double extend_towards(const Fitted& best, const Fitted& given, std::size_t count) {
+    return extend(given, count, {}, distance_from(best, given));
   }
 
   void try_pairs(const std::vector<Fitted>& singles) {
@@ -214,30 +229,12 @@ class Search {
       }
   }
 
-  /// Sorts `tried_` from `first` on, and keeps `count` of these.
-  template <class Before>
-  void keep_tried(std::size_t first, std::size_t count, Before before) {
-    const auto from = tried_.begin() + static_cast<std::ptrdiff_t>(std::min(first, tried_.size()));
-    std::sort(from, tried_.end(), before);
-    tried_.resize(std::min(tried_.size(), first + count));
-  }
-
-  /// Refits the likeliest of the tried hypotheses, and those with the largest reduction of an error, with
-  /// their own noise.
+  /// Refits the tried hypotheses that are worth it with their own noise.
   /// @return in the order of decreasing likelihood
   std::vector<Fitted> refit_likeliest() {
-    std::ranges::sort(tried_, {}, &Fitted::misfit);
-    std::vector<Fitted> once;
-    for (const Fitted& tried : tried_)
-      if (find(once, tried.effects) == nullptr) once.push_back(tried);
-    tried_ = std::move(once);
-    keep_tried(kLikeliest, kSmallestError, [&](const Fitted& a, const Fitted& b) {
-      return share_of_error_in_windows(a, found_.base) > share_of_error_in_windows(b, found_.base);
-    });
     std::vector<Fitted> level;
-    for (const Fitted& tried : tried_)
+    for (const Fitted& tried : worth_a_refit(std::exchange(tried_, {}), found_.base, found_.best))
       level.push_back(no_worse_than_its_parts(study_, found_.all, study_.refit_with_own_noise(tried)));
-    tried_.clear();
     std::sort(level.begin(), level.end(), less);
     for (const Fitted& fitted : level) keep(found_.all, fitted);
     return level;
@@ -295,6 +292,7 @@ class Search {
   Study& study_;
   const Request& request_;
   Hypotheses found_;
+  std::vector<Scored> scored_;
   std::vector<Fitted> tried_;  ///< first fits that have not been refitted
   InitialValues initial_values_{study_};
   std::map<std::size_t, double> p_value_;  ///< of every candidate alone

@@ -1,0 +1,26 @@
+#pragma once
+/// Which hypotheses a search fits: those that may become the best one.
+#include <vector>
+
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+
+/// Difference of the deviances, at least 0.
+[[nodiscard]] double distance_from(const Fitted& best, const Fitted& fitted);
+
+/// Largest decrease of the deviance to expect when the effect of a score is added to `given`. A score
+/// predicts the share s of the loss L that the effect removes, for the noise of `given`. This noise contains
+/// the missing effect: a refit also decreases the noise, and the deviance by -L ln(1 - s).
+/// @return infinite for a cause whose loss is rough or that adds a natural frequency: scores do not predict
+///   their fits
+[[nodiscard]] double reachable_decrease(const Score& score, const Candidate& candidate, const Fitted& given);
+
+/// The first fits that a search refits with their own noise: those with the largest likelihood, and of the
+/// others those with the largest reduction of an error. With fine sensors, the likelihood prefers small
+/// errors of the times to the cause of a large error. A hypothesis that is larger than `best` must have a
+/// larger likelihood.
+[[nodiscard]] std::vector<Fitted> worth_a_refit(std::vector<Fitted> first_fits, const Fitted& base,
+                                                const Fitted& best);
+
+}  // namespace crane::diagnosis
