@@ -1,5 +1,5 @@
 // The page: views, theme, connection, the stop that every view shows.
-import { Desk } from "./desk.js";
+import { Desk, drawSoftwareStop } from "./desk.js";
 import { forgetColours } from "./drawing.js";
 import { FaultsView } from "./faults.js";
 import { Link } from "./link.js";
@@ -56,10 +56,7 @@ link.addEventListener("change", () => {
   find("lost").hidden = link.state !== "lost";
   if (link.state === "live") desk.load().then(() => { find("crane-name").textContent = desk.about.crane ?? "crane"; document.title = (desk.about.crane ?? "crane") + " – dashboard"; });
 });
-desk.addEventListener("change", () => {
-  find("estop").disabled = !desk.about.may_operate;
-  find("estop").title = desk.about.may_operate ? "Removes power through the network. It does not replace the wired emergency stop." : desk.about.why_not;
-});
+desk.addEventListener("change", () => drawSoftwareStop(desk, find("estop")));
 find("estop").onclick = () => desk.ask({ kind: "estop" });
 desk.load();
 

@@ -4,7 +4,7 @@ import { REQUESTS, element } from "./words.js";
 const RENEW_MS = 3000;
 
 export class Desk extends EventTarget {
-  about = { may_operate: false, why_not: "" };
+  about = { may_operate: false, may_stop: false, why_not: "" };
   situation = null;
   holder = null;
   waiting = new Set(); // requests without an answer yet
@@ -34,19 +34,30 @@ export class Desk extends EventTarget {
     }
   }
 
+  #askAbout() { return fetch("/api/about", { headers: this.#token ? { Authorization: "Bearer " + this.#token } : {} }); }
+
   async load() {
-    const headers = this.#token ? { Authorization: "Bearer " + this.#token } : {};
     try {
-      this.about = await (await fetch("/api/about", { headers })).json();
+      let answer = await this.#askAbout();
+      if (answer.status === 403 && this.#token) { // the server refuses every request with a wrong token, also a stop
+        this.say((await answer.json()).error, "bad");
+        this.#keepToken("");
+        answer = await this.#askAbout();
+      }
+      this.about = await answer.json();
       if (this.#key) await this.#renew();
     } catch { /* the banner says that the dashboard does not answer */ }
     this.#changed();
   }
 
   async useToken(token) {
-    this.#token = token;
-    sessionStorage.setItem("crane-token", token);
+    this.#keepToken(token);
     await this.load();
+  }
+
+  #keepToken(token) {
+    this.#token = token;
+    token ? sessionStorage.setItem("crane-token", token) : sessionStorage.removeItem("crane-token");
   }
 
   async take(name) {
@@ -127,6 +138,12 @@ export function drawSeat(desk, into) {
   }
 }
 
+/** The stop that every view shows. A stop needs neither the controls nor, on this computer, the token. */
+export function drawSoftwareStop(desk, button) {
+  button.disabled = !desk.about.may_stop;
+  button.title = desk.about.may_stop ? "Removes power through the network. It does not replace the wired emergency stop." : desk.about.why_not;
+}
+
 const KINDS = { reset: "Reset", arm: "Arm", home: "Home", hold: "Hold here", stop: "Stop", disarm: "Disarm" };
 const URGENT = new Set(["stop", "disarm"]); // may be asked for again while the answer is awaited
 
@@ -142,7 +159,7 @@ export function drawRequests(desk, into) {
     const answer = desk.answerTo(kind === "hold" ? "move" : kind);
     const button = into.querySelector("#ask-" + kind);
     const free = URGENT.has(kind) || !desk.waiting.has(kind === "hold" ? "move" : kind);
-    button.disabled = !(answer.accepted && free && (kind === "stop" ? desk.about.may_operate : allowed));
+    button.disabled = !(answer.accepted && free && (kind === "stop" ? desk.about.may_stop : allowed));
     button.title = answer.accepted ? "" : answer.reason;
     button.className = !button.disabled && kind === next ? "primary" : "";
     if (!answer.accepted && answer.reason) reasons.set(answer.reason, [...(reasons.get(answer.reason) ?? []), kind === "hold" ? "Move" : REQUESTS[kind]]);

@@ -31,6 +31,15 @@ async function ask(kind) {
   await until(kind + " is possible", () => page.isEnabled("#ask-" + kind));
   await page.click("#ask-" + kind);
 }
+async function arm() {
+  await ask("reset");
+  await until("READY", async () => (await state()) === "READY");
+  await until("armed", async () => {
+    // Refused until the streams are complete for a second. The button waits for the answer; a click does not wait for the button.
+    await page.evaluate(() => document.querySelector("#ask-arm").click());
+    return (await state()) === "HOLD";
+  });
+}
 const number = async (id) => parseFloat(await page.textContent("#" + id));
 
 before(async () => {
@@ -61,14 +70,8 @@ test("the first picture comes soon, and the state says what to do", async () => 
 
 test("the operator takes the controls, arms and moves; the load moves and the numbers follow", async () => {
   await page.click("#take");
-  await ask("reset");
-  await until("READY", async () => (await state()) === "READY");
   assert.match(await page.textContent("#requests"), /Move/);
-  await until("armed", async () => {
-    // Refused until the streams are complete for a second. The button waits for the answer; a click does not wait for the button.
-    await page.evaluate(() => document.querySelector("#ask-arm").click());
-    return (await state()) === "HOLD";
-  });
+  await arm();
   await page.fill("#target-trolley", "0.9");
   await page.fill("#target-slew", "60");
   await page.click("#ask-move");
@@ -99,6 +102,24 @@ test("another operating mode is refused while the brakes are open", async () => 
   await page.selectOption("#mode", "manual");
   await until("refused", async () => /Mode refused: the brakes are open/.test(await page.textContent("#answer")));
   await until("the present mode is shown", async () => (await page.inputValue("#mode")) === "semi_automatic");
+});
+
+test("without the operator token, a page of this computer stops the crane and does nothing else", async () => {
+  const secret = mkdtempSync(join(tmpdir(), "crane_token_"));
+  const guarded = await startDashboard(0, "--operator-token", join(secret, "token"));
+  const other = await (await browser.newContext()).newPage();
+  watch(other, "without token");
+  await other.goto(guarded.address);
+  await until("the page asks for the token", () => other.locator("#seat input[type=password]").count());
+  await until("the stop is possible", () => other.isEnabled("#ask-stop"));
+  assert.ok(await other.isEnabled("#estop"));
+  assert.ok(await other.isDisabled("#ask-disarm"));
+  await other.click("#ask-stop");
+  await until("stopped", async () => (await state()) === "LOCKED");
+  await other.close();
+  await end(guarded.child);
+  rmSync(secret, { recursive: true });
+  await arm();
 });
 
 test("plots fill, can be added, paused and exported", async () => {
