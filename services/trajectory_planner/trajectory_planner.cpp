@@ -183,7 +183,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     else if (path.outcome == control::PathOutcome::around)
       motion_.start(move, path, path_space_, tick);
     else
-      node().error("no_path", "no path has_path from the place where the crane rests to the target",
+      node().error("no_path", "no path leads from the place where the crane rests to the target",
                    "move the load away from the zones, then to the target");
   }
 
