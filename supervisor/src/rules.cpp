@@ -161,7 +161,7 @@ constexpr std::array kRules{
     Rule{"supervisor_swing_sensor", Cause::swing_sensor, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.swing_sensor_failed; },
          "the measured load does not move as a pendulum under the measured trolley",
-         "250 ms for an error of 0.1 rad", "check the encoders of swing, trolley and slew, and their cables, then reset"},
+         "190 ms for an error of 0.1 rad at 1 m of cable (tower)", "check the encoders of swing, trolley and slew, and their cables, then reset"},
     Rule{"supervisor_stop_timeout", Cause::stop_timeout, Reaction::ramped_stop, Scope::armed, false,
          [](L limits, I in, M m) noexcept {
            return m.state == State::stop_c1 && in.now_s - m.entered_s >= limits.stop_timeout_s;
