@@ -18,7 +18,7 @@ struct EnvelopeInput {
 
 /// true: the limit is violated.
 struct Envelope {
-  AxisFlags block_positive{};  ///< the axis would not stop before its high limit: no positive voltage
+  AxisFlags block_positive{};  ///< no positive voltage: could not stop before high limit, or switch pressed
   AxisFlags block_negative{};  ///< the same for the low limit and negative voltage
   bool stopping = false;       ///< an axis cannot stop before a hard limit: x +- (v t + v^2/2a)
   bool position = false;       ///< an axis is outside a hard limit

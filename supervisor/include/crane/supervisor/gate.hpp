@@ -44,7 +44,7 @@ struct GateOutput {
 /// @post memory.last_v is unchanged: the caller stores the voltage that it sends
 [[nodiscard]] GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory) noexcept;
 
-/// rate_pressure that stops the crane: a full reversal and ten more consecutive ticks with limited rate.
+/// Value of rate_pressure after a full reversal and ten more rate-limited ticks in a row; it stops the crane.
 [[nodiscard]] int rate_pressure_limit(const Limits& limits) noexcept;
 
 }  // namespace crane::supervisor

@@ -1,6 +1,6 @@
 #pragma once
-/// One tick of the supervisor: a pure function of sample and demand that returns command and status.
-/// samples.hpp converts from and to the topics.
+/// One tick of the supervisor: a pure function of limits, inputs and memory that returns command and status.
+/// process/samples.hpp converts from and to the topics.
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"

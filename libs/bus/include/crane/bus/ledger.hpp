@@ -39,7 +39,7 @@ class Ledger {
   /// Enters a sample, unless it is empty. Wait-free; several processes may enter at the same time.
   void enter(std::span<const std::uint8_t> sample) noexcept;
   /// @return true when the sample has been entered and not yet been replaced. The ledger holds about 110,000
-  /// samples: more than a minute of a loop with 100 ticks per second and twelve samples per tick
+  /// samples: about two minutes of a loop with 100 ticks per second and eight samples per tick
   [[nodiscard]] bool contains(std::span<const std::uint8_t> sample) const noexcept;
 
  private:

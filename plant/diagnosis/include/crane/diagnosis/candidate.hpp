@@ -20,8 +20,8 @@ struct FreeParameter {
       false;  ///< the value is usually at a bound: a rough fit first holds the value at each bound
 };
 
-/// One form of a candidate: probes of a small amount each. The score test uses the probes of one shape
-/// jointly.
+/// One form of a candidate. A probe is the term with a small amount (`large_probe`: a large one). The score
+/// test uses the probes of one shape jointly.
 struct Shape {
   std::vector<plant::TermSetting> probes;
   std::vector<double> amounts;

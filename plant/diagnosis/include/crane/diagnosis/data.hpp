@@ -111,7 +111,7 @@ struct Motion {
 /// reproduces them.
 [[nodiscard]] Motion spline(std::span<const double> measured, double period_s);
 /// Cubic spline through samples at their own, increasing times, evaluated at 0, period, ... for `rows` rows.
-/// Constant from one period outside of the samples on.
+/// The value is constant more than one period outside the samples.
 [[nodiscard]] Motion spline_of(std::span<const double> time_s, std::span<const double> measured,
                                double period_s, std::size_t rows);
 

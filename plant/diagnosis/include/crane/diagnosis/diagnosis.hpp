@@ -51,7 +51,7 @@ struct HeldOut {
   std::map<std::string, double> whole_baseline_rms, whole_extended_rms;  ///< whole runs, open loop
   /// Error of a model that holds the first measured value, m or rad; a useful simulation has a smaller error.
   std::map<std::string, double> held_value_rms, whole_held_value_rms;
-  /// Simulated over measured motion in whole runs, standard deviations; 0: the extended model stands still.
+  /// Standard deviation of simulated / of measured motion in whole runs; 0: the extended model stands still.
   std::map<std::string, double> whole_extended_motion;
   double gain = 0;  ///< 1 - extended / baseline, noise-weighted, over the columns that the causes act on
   std::array<double, 2> gain_ci95{0, 0};

@@ -33,7 +33,7 @@ struct MappedColumn {
   double factor = 1;               ///< canonical units per unit of the column, > 0
   int sign = 1;                    ///< 1 or -1
   double offset = 0;               ///< canonical unit; added last
-  std::vector<std::string> times;  ///< columns that multiply it, row by row
+  std::vector<std::string> times;  ///< further columns; their values multiply `column`, row by row
   std::string unit;                ///< of a command other than V, for messages
 };
 

@@ -14,9 +14,9 @@ struct Explained {
   std::string reason;  ///< reason and remedy; empty when accepted
 };
 
-/// The topics do not show how long the causes have been clear and the inputs have been fresh: the answers
-/// assume the required second. They do not consider whether a position is doubtful after a restart of the
-/// bridge. @param state  null: no state
+/// The topics do not show every input of the supervisor, for example how long the causes have been clear. The
+/// answers assume that these inputs permit the request; docs/safety.md lists the assumptions.
+/// @param state  null: no state
 [[nodiscard]] std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::State* state);
 
 }  // namespace crane::supervisor
