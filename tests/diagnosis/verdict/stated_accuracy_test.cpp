@@ -40,10 +40,11 @@ std::vector<Run> runs_of_gantry(const strange::Gantry& gantry, double delay_s, d
   return load_run(table, accurate_lab(), "gantry.csv").runs;
 }
 
-Diagnosis diagnosed(const strange::Gantry& gantry, double delay_s, const Scales& scales = {}) {
+Diagnosis diagnosed(const strange::Gantry& gantry, double delay_s, const Scales& scales = {},
+                    const configuration::Rig& rig = accurate_lab()) {
   Request request;
   request.most_effects = 1;
-  return diagnose(accurate_lab(), runs_of_gantry(gantry, delay_s, 0, scales),
+  return diagnose(rig, runs_of_gantry(gantry, delay_s, 0, scales),
                   runs_of_gantry(gantry, delay_s, 40, scales), request);
 }
 
@@ -96,6 +97,24 @@ TEST(StatedAccuracy, KeepsTheValueOfACauseApartFromErrorsOfOtherQuantities) {
   ASSERT_EQ(found.causes.size(), 1U);
   EXPECT_EQ(found.causes[0].name, "cable_length");
   EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.3 * strange::Gantry{}.cable_m, 0.02);
+}
+
+/// The accuracy of a Coulomb friction of 0 V is 0 V: this quantity is not fitted, the others are.
+TEST(StatedAccuracy, IsUsedForADriveWithViscousFrictionOnly) {
+  constexpr double kViscous_vspm = 0.1;
+  configuration::Rig rig = accurate_lab();
+  rig.terms.push_back({"drive_friction",
+                       "trolley",
+                       {{"viscous_positive_vspm", kViscous_vspm}, {"viscous_negative_vspm", kViscous_vspm}}});
+  strange::Gantry gantry;
+  gantry.drag_nspm = kViscous_vspm * gantry.inertia_kg * gantry.gain_mps2pv;
+  gantry.gain_mps2pv *= 1.01;
+  gantry.cable_m *= 1.3;
+  const Diagnosis found = diagnosed(gantry, 0, {}, rig);
+  ASSERT_EQ(found.causes.size(), 1U) << found.sentence;
+  EXPECT_EQ(found.causes[0].name, "cable_length");
+  EXPECT_GT(found.causes[0].parameters.at(0).std_dev, 0);
+  EXPECT_NEAR(calibrated_value(found, "motor_gain"), 1.01, 0.002);
 }
 
 /// Free swings of a load; noise makes the mean of the encoder finer than its count.

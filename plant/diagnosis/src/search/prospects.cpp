@@ -12,6 +12,9 @@ namespace {
 
 /// Largest number of hypotheses of one size that are refitted: by likelihood, by error.
 constexpr std::size_t kLikeliest = 2, kSmallestError = 2;
+/// A score predicts at least this share of the decrease of the deviance: the noise model describes a part of
+/// the missing effect as a disturbance.
+constexpr double kLeastPredicted = 0.02;
 
 bool may_exceed(const Fitted& first_fit, const Fitted& best) {
   return first_fit.effects.size() <= best.effects.size() || first_fit.misfit < best.misfit;
@@ -28,7 +31,7 @@ double reachable_decrease(const Score& score, const Candidate& candidate, const 
   if (candidate.rough || candidate.ringing_starts_at) return kUnbounded;
   const double loss =
       (candidate.drive ? given.train.drive_loss : 0) + (candidate.load ? given.train.load_loss : 0);
-  const double share = kDecreaseMargin * std::max(0.0, score.share);
+  const double share = std::max(0.0, score.share) / kLeastPredicted;
   return share < 1 ? -loss * std::log1p(-share) : kUnbounded;
 }
 

@@ -10,8 +10,9 @@ namespace crane::diagnosis {
 [[nodiscard]] double distance_from(const Fitted& best, const Fitted& fitted);
 
 /// Largest decrease of the deviance to expect when the effect of a score is added to `given`. A score
-/// predicts the share s of the loss L that the effect removes, for the noise of `given`. This noise contains
-/// the missing effect: a refit also decreases the noise, and the deviance by -L ln(1 - s).
+/// predicts the share of the loss L that the effect removes, for the noise model of `given`. This model
+/// describes the missing effect as a disturbance: the true share s can be much larger. A refit also decreases
+/// the noise, and the deviance by -L ln(1 - s).
 /// @return infinite for a cause whose loss is rough or that adds a natural frequency: scores do not predict
 ///   their fits
 [[nodiscard]] double reachable_decrease(const Score& score, const Candidate& candidate, const Fitted& given);

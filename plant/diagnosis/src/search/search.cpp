@@ -221,11 +221,11 @@ class Search {
   }
 
   void try_pairs(const std::vector<Fitted>& singles) {
-    study_.whiten_training(found_.base.nuisance);
+    const Fitted base = base_in(found_.best.nuisance);
     for (std::size_t i = 0; i < std::min(kPaired, singles.size()); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const Effects pair{singles[i].effects[0], singles[j].effects[0]};
-        if (!known(pair)) tried_.push_back(study_.first_fit(pair, found_.base));
+        if (!known(pair)) tried_.push_back(study_.first_fit(pair, base));
       }
   }
 

@@ -29,6 +29,7 @@ constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0
 /// From this round on, a fit ends if kDecreaseMargin times the predicted decrease does not bring the loss
 /// below `loss_to_beat`.
 constexpr int kLeastRounds = 1;
+constexpr double kDecreaseMargin = 4;
 
 struct Flat {
   std::vector<const FreeParameter*> parameters;

@@ -42,6 +42,9 @@ std::vector<Candidate> inaccuracies_of(const std::vector<Candidate>& candidates,
       p.high = std::min(p.high, p.null + limits[i]);
       p.step = std::min(p.step, 0.5 * limits[i]);
     }
+    // The accuracy of a quantity that is 0 in the rig file is 0. A term without this parameter has its value.
+    std::erase_if(bounded.parameters, [](const FreeParameter& p) { return !(p.low < p.high); });
+    bounded.amount_count = std::min(bounded.amount_count, bounded.parameters.size());
   }
   return all;
 }

@@ -72,10 +72,6 @@ struct ShowsIn {
   bool drive = false, load = false;
 };
 
-/// A fit decreases the loss by at most this multiple of the decrease that the slopes at its start predict,
-/// because the loss is not quadratic.
-inline constexpr double kDecreaseMargin = 4;
-
 /// Score test of one candidate in one shape.
 struct Score {
   std::size_t candidate = 0;
