@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -59,6 +60,34 @@ TEST(Csv, ReadsFilesOfLaboratories) {
   EXPECT_THAT(*table.find("swing_radial_rad"), ElementsAre(0.0015, -2));
 }
 
+TEST(Csv, ReadsSemicolonsAndTabsWithDecimalCommas) {
+  for (const std::string& text : {std::string{"t;x;y\r\n0,5;-1,25e-3;\r\n1.5;;2\r\n"},
+                                  std::string{"t\tx\ty\n0,5\t-1,25e-3\t\n1.5\t\t2\n"}}) {
+    const Table table = parse_csv(text, "a.csv");
+    EXPECT_THAT(*table.find("t"), ElementsAre(0.5, 1.5));
+    EXPECT_DOUBLE_EQ(table.find("x")->at(0), -0.00125);
+    EXPECT_TRUE(std::isnan(table.find("x")->at(1)));
+    EXPECT_TRUE(std::isnan(table.find("y")->at(0)));
+    EXPECT_EQ(table.find("y")->at(1), 2);
+  }
+}
+
+TEST(Csv, ReadsDatesAsSecondsSince1970) {
+  const std::map<std::string, double> dates{{"1970-01-01T00:00:00", 0},
+                                            {"1970-01-02 00:00:01.25", 86401.25},
+                                            {"2000-03-01T00:00:00Z", 951868800},
+                                            {"2024-03-14T10:22:31,551", 1710411751.551},
+                                            {"2024-03-14T11:22:31.551+01:00", 1710411751.551},
+                                            {"2024-03-14T05:52:31.551-0430", 1710411751.551}};
+  for (const auto& [date, time_s] : dates)
+    EXPECT_NEAR(parse_csv("t;x\n" + date + ";1\n", "a.csv").find("t")->at(0), time_s, 1e-6) << date;
+  for (const std::string date :
+       {"2024-02-30T00:00:00", "2024-13-01T00:00:00", "2024-03-14T24:00:00", "2024-03-14", "2024-03-14T10:22",
+        "2024-03-14T10:22:31.", "2024-3-14T10:22:31", "2024-03-14T10:22:31+1", "2024-03-14T10:22:31Zx",
+        "2024--3-14T10:22:31"})
+    EXPECT_THROW((void)parse_csv("t;x\n" + date + ";1\n", "a.csv"), CsvError) << date;
+}
+
 TEST(Csv, KeepsOnlyTheWantedColumnsInTheWantedOrder) {
   const std::string text = "note,time_s,extra,cable_length_m\nhello,0,1,2\nworld,1,3,4\n";
   const Table table = parse_csv(text, "a.csv", {"cable_length_m", "slew_angle_rad", "time_s"});
@@ -87,6 +116,7 @@ TEST(Csv, NamesFileLineAndReasonOfBadInput) {
   EXPECT_EQ(parse("time_s,,x\n"), "a.csv:1: column 2 has no name");
   EXPECT_EQ(parse("time_s,x\n0,1\n0\n"), "a.csv:3: 1 cells, the header has 2");
   EXPECT_EQ(parse("time_s\n0.1.2\n"), "a.csv:2: time_s = \"0.1.2\": is not a number");
+  EXPECT_EQ(parse("time_s;x\n0;1,234.5\n"), "a.csv:2: x = \"1,234.5\": is not a number");
   EXPECT_EQ(parse("time_s\n1e999\n"), "a.csv:2: time_s = \"1e999\": is not a number");
   EXPECT_EQ(error_of([] { (void)read_csv("/nowhere/a.csv"); }),
             "/nowhere/a.csv: cannot read: No such file or directory");

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <system_error>
 
 #include "crane/fields/printable.hpp"
+#include "date.hpp"
 
 namespace crane::recording {
 namespace {
@@ -27,14 +29,29 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-std::vector<std::string_view> cells_of(std::string_view line) {
+std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   while (true) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return cells;
+    line.remove_prefix(end + 1);
   }
+}
+
+char separator_of(std::string_view header) {
+  for (const char separator : {';', '\t'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+/// The number that is the whole text.
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 void require_writable(const Table& table) {
@@ -60,10 +77,12 @@ class Parser {
     ++line_;
     const std::string_view content = trimmed(text);
     if (content.empty() || content.front() == '#') return;
-    if (table_.columns.empty())
+    if (table_.columns.empty()) {
+      separator_ = separator_of(content);
       header(content);
-    else
-      row(content);
+    } else {
+      row(text);
+    }
   }
 
   Table take() {
@@ -84,7 +103,7 @@ class Parser {
 
   void header(std::string_view text) {
     std::set<std::string_view> names;
-    for (const std::string_view name : cells_of(text)) {
+    for (const std::string_view name : cells_of(text, separator_)) {
       if (name.empty()) fail("column " + std::to_string(names.size() + 1) + " has no name");
       if (!names.insert(name).second) fail("column " + fields::printable(name, kShown) + " occurs twice");
       table_.columns.push_back({std::string{name}, {}});
@@ -93,7 +112,7 @@ class Parser {
   }
 
   void row(std::string_view text) {
-    const std::vector<std::string_view> cells = cells_of(text);
+    const std::vector<std::string_view> cells = cells_of(text, separator_);
     if (cells.size() != table_.columns.size())
       fail(std::to_string(cells.size()) + " cells, the header has " + std::to_string(table_.columns.size()));
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -102,20 +121,20 @@ class Parser {
 
   [[nodiscard]] double number(std::string_view cell, const std::string& column) const {
     if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
-    std::string_view digits = cell;
-    if (digits.front() == '+') digits.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size())
-      fail(fields::printable(column, kShown) + " = \"" + fields::printable(cell, kShown) +
-           "\": is not a number");
-    return value;
+    if (const auto value = number_in(cell)) return *value;
+    if (const auto time_s = seconds_of_date(cell)) return *time_s;
+    std::string with_point{cell};
+    std::ranges::replace(with_point, ',', '.');
+    if (const auto value = number_in(with_point)) return *value;
+    fail(fields::printable(column, kShown) + " = \"" + fields::printable(cell, kShown) +
+         "\": is not a number");
   }
 
   std::string file_;
   const std::vector<std::string>& wanted_;
   Table table_;
   std::vector<bool> kept_;
+  char separator_ = ',';
   int line_ = 0;
 };
 

@@ -43,6 +43,20 @@ time_s = { column = "t_ms", factor = 0.001 }
   EXPECT_THAT(*result.find("cable_length_m"), ElementsAre(0.7, 0.8));
 }
 
+TEST(Mapping, JoinsAnAngleThatBeginsAgain) {
+  const auto mapping = parse_mapping(R"([columns]
+slew_angle_rad = { column = "deg", factor = 0.5, sign = -1, offset = 7, wraps = 180 }
+)",
+                                     "their.toml");
+  const auto table = recording::parse_csv("deg\n350\n359\n\n10\n350\n200\n30\n", "run.csv");
+  const auto skipped = recording::parse_csv("deg,x\n350,0\n,0\n10,0\n", "run.csv");
+  EXPECT_THAT(*canonical(table, mapping, "run.csv").find("slew_angle_rad"),
+              ElementsAre(7 - 175, 7 - 179.5, 7 - 185, 7 - 175, 7 - 100, 7 - 15));
+  EXPECT_EQ(canonical(skipped, mapping, "run.csv").find("slew_angle_rad")->at(2), 7 - 185);
+  EXPECT_THAT(problems_of("[columns]\nslew_voltage_v = { column = \"u\", wraps = 10 }\n"),
+              HasSubstr("wraps = 10: only a position or an angle begins again"));
+}
+
 TEST(Mapping, WithoutColumnsKeepsCanonicalColumnsOnly) {
   const auto table = recording::parse_csv("tick,time_s,slew_angle_rad\n1,0,2\n", "run.csv");
   EXPECT_THAT(names_of(canonical(table, {}, "run.csv")), ElementsAre("time_s", "slew_angle_rad"));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "crane/configuration/extended_file.hpp"
 #include "crane/diagnosis/data.hpp"
@@ -10,6 +11,16 @@ namespace crane::diagnosis {
 namespace {
 
 using Values = std::vector<double>;
+
+/// Adds multiples of the range, so that no value differs from the one before by more than half the range.
+void unwrap(double range, Values& values) {
+  double last = std::numeric_limits<double>::quiet_NaN();
+  for (double& value : values) {
+    if (!std::isfinite(value)) continue;
+    if (std::isfinite(last)) value += range * std::round((last - value) / range);
+    last = value;
+  }
+}
 
 /// Canonical table of one file.
 class Mapped {
@@ -46,6 +57,7 @@ class Mapped {
       for (std::size_t k = 0; k < std::min(values.size(), by.size()); ++k) values[k] *= by[k];
     }
     for (double& value : values) value = mapped->sign * mapped->factor * value + mapped->offset;
+    if (mapped->wraps > 0) unwrap(mapped->wraps, values);
     result_.columns.push_back({canonical, std::move(values)});
   }
 

@@ -8,6 +8,7 @@
 ///   swing_radial_rad = { column = "theta_deg", factor = 0.017453292519943295, sign = -1, offset = 3.14159 }
 ///   slew_voltage_v = { column = "duty", times = ["supply_v"], factor = 0.00113 }
 ///   trolley_voltage_v = { column = "current_a", unit = "A", per_volt = 0.5 }
+///   slew_angle_rad = { column = "angle_deg", factor = 0.017453292519943295, wraps = 6.283185307179586 }
 ///   cable_length_m = { value = 0.7 }
 ///   [enable]
 ///   column = "torque_enable"                        # rows where it is not 0
@@ -35,6 +36,7 @@ struct MappedColumn {
   double offset = 0;               ///< canonical unit; added last
   std::vector<std::string> times;  ///< further columns; their values multiply `column`, row by row
   std::string unit;                ///< of a command other than V, for messages
+  double wraps = 0;  ///< canonical unit; the column begins again after this range. 0: it does not
 };
 
 /// Closed interval of times; rows within the interval are selected.
