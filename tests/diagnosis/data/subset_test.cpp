@@ -89,6 +89,24 @@ TEST(SubsetOfColumns, ASupportAtRestMayBeAConstantOfTheMapping) {
   EXPECT_TRUE(loaded.runs[0].has(kRadialSwing));
 }
 
+/// A rotary pendulum is a tower crane whose trolley stands still.
+TEST(SubsetOfColumns, AnAxisAtRestNeedsNoCommandBesideACommandedAxis) {
+  const auto tower = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  std::string text = "time_s,slew_voltage_v,slew_angle_rad,swing_tangential_rad,trolley_position_m\n";
+  for (int row = 0; row < 400; ++row) {
+    const double t = 0.01 * row;
+    text += std::to_string(t) + "," + std::to_string(2 * std::sin(3 * t)) + "," +
+            std::to_string(0.2 * std::sin(3 * t)) + "," + std::to_string(0.05 * std::sin(5 * t)) + ",0.6\n";
+  }
+  const Loaded loaded = load_run(recording::parse_csv(text, "arm.csv"), tower, "arm.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  EXPECT_TRUE(loaded.runs[0].commanded[kSlewAngle]);
+  EXPECT_FALSE(loaded.runs[0].commanded[kTrolleyPosition]);
+  text += "4,0,0,0,0.61\n";
+  EXPECT_THROW((void)load_run(recording::parse_csv(text, "arm.csv"), tower, "arm.csv"), DataError)
+      << "a moving trolley";
+}
+
 TEST(SubsetOfColumns, AMotionWithoutCommandAndSwingIsRefused) {
   EXPECT_THAT(refused(without(measured_with(1, 1.5), {"trolley_voltage_v", "swing_radial_rad"})),
               HasSubstr("a motion alone determines nothing"));

@@ -93,6 +93,29 @@ TEST(EquationError, OfLateRowsIsAsSmallAsOfRegularRows) {
   EXPECT_FALSE(find_jumps(of_late));
 }
 
+/// The commands of a slow logger may turn the axis around from row to row. Position and speed at the start of
+/// a piece explain two rows.
+TEST(EquationError, OfAMotionOfFewRowsIsFiniteAndHasPiecesOfAtLeastThreeRows) {
+  const configuration::Rig rig = axis_with_viscous_friction();
+  diagnosis::Run slow;
+  slow.name = "slow logger";
+  slow.period_s = 0.1;
+  for (int row = 0; row < 300; ++row) {
+    const int turning = row % 60 < 40 ? 20 : 1;  // rows in one direction
+    const double position = row / turning % 2 == 0 ? row % turning : turning - row % turning;
+    slow.measured[kTrolleyPosition].push_back(0.01 * position);
+    slow.command_v.push_back({row / turning % 2 == 0 ? 0.2 : -0.2, 0, 0});
+    slow.cable_m.push_back(1);
+  }
+  const Runs runs{prepare(std::move(slow), rig)};
+  const Pieces pieces = pieces_of(runs, replays_of(runs, {rig.plant, rig.terms}), kTrolleyPosition);
+  ASSERT_FALSE(pieces.all.empty());
+  for (const Piece& piece : pieces.all) {
+    EXPECT_GE(piece.rows, 3U);
+    EXPECT_TRUE(piece.residual.allFinite()) << piece.first;
+  }
+}
+
 /// With an inversion of first order, an error of 2 mm of 40 cm would remain at a scale of 7 %.
 TEST(EquationError, InvertsAScaleOfTheEncoderAndKeepsTheResidualInSensorUnits) {
   constexpr double kScale = 0.93;

@@ -59,8 +59,8 @@ class Checks {
       columns_.load_mass_kg = mass->front();
   }
 
-  /// All measured drives must have a command, or none. Without commands, the motion of the drives is the
-  /// measured motion of the support.
+  /// All measured drives that move must have a command, or none. Without commands, the motion of the drives
+  /// is the measured motion of the support.
   void find_commands() {
     bool any = false, swings = false;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
@@ -72,7 +72,9 @@ class Checks {
       swings = swings || columns_.outputs[swing].values != nullptr;
     bool alone = false;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      if (columns_.outputs[axis].values == nullptr || columns_.commands[axis].values != nullptr) continue;
+      const auto* position = columns_.outputs[axis].values;
+      if (position == nullptr || columns_.commands[axis].values != nullptr) continue;
+      if (any && range_of(*position) == 0) continue;
       const std::string rule = std::string{kOutputNames[axis]} + " needs the command that moved it";
       if (any)
         findings_.problem(columns_.commands[axis].name, "missing",

@@ -17,6 +17,8 @@ using Eigen::VectorXd;
 
 /// A shorter piece is not used, because its start explains all of it. A longer piece is divided.
 constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
+/// Position and speed at the start explain two rows.
+constexpr std::size_t kFewestRows = 3;
 /// The speed is unknown in a gap that is longer than both: s; usual row spacings.
 constexpr double kUnknownSpeed_s = 0.1, kUnknownRows = 2.5;
 
@@ -43,7 +45,7 @@ std::vector<bool> unknown_rows(const Run& run, Output axis) {
 /// Stretches in which the axis moves without a rest.
 std::vector<MovingStretch> moving_stretches(const PreparedRun& run, std::size_t number, Output axis) {
   const std::vector<double>& rate = run.motion[axis].rate;
-  const auto shortest = static_cast<std::size_t>(kShortestPiece_s / run.run.period_s);
+  const auto shortest = std::max(kFewestRows, static_cast<std::size_t>(kShortestPiece_s / run.run.period_s));
   const auto longest = static_cast<std::size_t>(kLongestPiece_s / run.run.period_s);
   const std::vector<bool> unknown = unknown_rows(run.run, axis);
   std::vector<MovingStretch> all;
