@@ -72,6 +72,12 @@ TEST(Csv, ReadsSemicolonsAndTabsWithDecimalCommas) {
   }
 }
 
+TEST(Csv, TakesTheMostFrequentSeparatorOfTheHeader) {
+  EXPECT_THAT(*parse_csv("time_s,\tx\n0,\t1\n", "a.csv").find("x"), ElementsAre(1));
+  EXPECT_THAT(*parse_csv("time_s,x,y [m; low end]\n0,1,2\n", "a.csv").find("x"), ElementsAre(1));
+  EXPECT_THAT(*parse_csv("t;x, filtered;y\n0;1,5;2\n", "a.csv").find("x, filtered"), ElementsAre(1.5));
+}
+
 TEST(Csv, ReadsDatesAsSecondsSince1970) {
   const std::map<std::string, double> dates{{"1970-01-01T00:00:00", 0},
                                             {"1970-01-02 00:00:01.25", 86401.25},

@@ -39,10 +39,10 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   }
 }
 
+/// The most frequent separator of the header; the first of equally frequent ones.
 char separator_of(std::string_view header) {
-  for (const char separator : {';', '\t'})
-    if (header.find(separator) != std::string_view::npos) return separator;
-  return ',';
+  constexpr std::string_view kSeparators = ",;\t";
+  return *std::ranges::max_element(kSeparators, {}, [&](char c) { return std::ranges::count(header, c); });
 }
 
 /// The number that is the whole text.
