@@ -39,7 +39,7 @@ export class Desk extends EventTarget {
   async load() {
     try {
       let answer = await this.#askAbout();
-      if (answer.status === 403 && this.#token) { // the server refuses every request with a wrong token, also a stop
+      if (answer.status === 403 && this.#token) { // discard a wrong token: with it, the server refuses even a stop
         this.say((await answer.json()).error, "bad");
         this.#keepToken("");
         answer = await this.#askAbout();

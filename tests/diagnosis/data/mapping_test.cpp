@@ -43,7 +43,7 @@ time_s = { column = "t_ms", factor = 0.001 }
   EXPECT_THAT(*result.find("cable_length_m"), ElementsAre(0.7, 0.8));
 }
 
-TEST(Mapping, JoinsAnAngleThatBeginsAgain) {
+TEST(Mapping, UnwrapsAnAngle) {
   const auto mapping = parse_mapping(R"([columns]
 slew_angle_rad = { column = "deg", factor = 0.5, sign = -1, offset = 7, wraps = 180 }
 )",
@@ -54,7 +54,7 @@ slew_angle_rad = { column = "deg", factor = 0.5, sign = -1, offset = 7, wraps = 
               ElementsAre(7 - 175, 7 - 179.5, 7 - 185, 7 - 175, 7 - 100, 7 - 15));
   EXPECT_EQ(canonical(skipped, mapping, "run.csv").find("slew_angle_rad")->at(2), 7 - 185);
   EXPECT_THAT(problems_of("[columns]\nslew_voltage_v = { column = \"u\", wraps = 10 }\n"),
-              HasSubstr("wraps = 10: only a position or an angle begins again"));
+              HasSubstr("wraps = 10: is permitted for positions and angles only"));
 }
 
 TEST(Mapping, WithoutColumnsKeepsCanonicalColumnsOnly) {

@@ -46,7 +46,7 @@ MappedColumn read_column(TomlTable table, const std::string& canonical) {
   if (std::any_of(mapped.times.begin(), mapped.times.end(), [](const auto& name) { return name.empty(); }))
     table.problem("times", "must name columns");
   if (table.has("wraps") && (canonical == "time_s" || canonical.ends_with("_voltage_v")))
-    table.problem("wraps", "only a position or an angle begins again");
+    table.problem("wraps", "is permitted for positions and angles only");
   mapped.wraps = table.has("wraps") ? table.number("wraps", Range::positive()) : 0;
   read_unit(table, mapped);
   return mapped;

@@ -12,8 +12,8 @@ namespace {
 
 /// Largest number of hypotheses of one size that are refitted: by likelihood, by error.
 constexpr std::size_t kLikeliest = 2, kSmallestError = 2;
-/// A score predicts at least this share of the decrease of the deviance: the noise model describes a part of
-/// the missing effect as a disturbance.
+/// Lower bound of predicted / true share of the loss. The noise model describes the rest of the effect as a
+/// disturbance.
 constexpr double kLeastPredicted = 0.02;
 
 bool may_exceed(const Fitted& first_fit, const Fitted& best) {

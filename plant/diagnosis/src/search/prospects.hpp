@@ -9,12 +9,11 @@ namespace crane::diagnosis {
 /// Difference of the deviances, at least 0.
 [[nodiscard]] double distance_from(const Fitted& best, const Fitted& fitted);
 
-/// Largest decrease of the deviance to expect when the effect of a score is added to `given`. A score
-/// predicts the share of the loss L that the effect removes, for the noise model of `given`. This model
-/// describes the missing effect as a disturbance: the true share s can be much larger. A refit also decreases
-/// the noise, and the deviance by -L ln(1 - s).
-/// @return infinite for a cause whose loss is rough or that adds a natural frequency: scores do not predict
-///   their fits
+/// Largest decrease of the deviance to expect when the effect of a score is added to `given`. The score
+/// predicts the share of the loss L that the effect removes. The noise model of `given` describes a part of
+/// the effect as a disturbance: the true share s is at most predicted share / kLeastPredicted. A refit with
+/// its own noise decreases the deviance by at most -L ln(1 - s).
+/// @return infinite if s >= 1, if the loss of the cause is rough, or if the cause adds a natural frequency
 [[nodiscard]] double reachable_decrease(const Score& score, const Candidate& candidate, const Fitted& given);
 
 /// The first fits that a search refits with their own noise: those with the largest likelihood, and of the

@@ -42,7 +42,7 @@ std::vector<Candidate> inaccuracies_of(const std::vector<Candidate>& candidates,
       p.high = std::min(p.high, p.null + limits[i]);
       p.step = std::min(p.step, 0.5 * limits[i]);
     }
-    // The accuracy of a quantity that is 0 in the rig file is 0. A term without this parameter has its value.
+    // A quantity that is 0 in the rig file has the accuracy 0: its parameter is not fitted and stays 0.
     std::erase_if(bounded.parameters, [](const FreeParameter& p) { return !(p.low < p.high); });
     bounded.amount_count = std::min(bounded.amount_count, bounded.parameters.size());
   }

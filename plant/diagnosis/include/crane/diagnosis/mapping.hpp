@@ -36,7 +36,7 @@ struct MappedColumn {
   double offset = 0;               ///< canonical unit; added last
   std::vector<std::string> times;  ///< further columns; their values multiply `column`, row by row
   std::string unit;                ///< of a command other than V, for messages
-  double wraps = 0;  ///< canonical unit; the column begins again after this range. 0: it does not
+  double wraps = 0;                ///< range at which the column wraps, canonical unit; unwrapped. 0: no wrap
 };
 
 /// Closed interval of times; rows within the interval are selected.
