@@ -39,6 +39,13 @@ Number number_of(const std::string& text, const char* name) {
   return number;
 }
 
+constexpr const char* kJsonType = "application/json";
+
+/// @throws BadRequest when the body is no request
+bool stops(const ApiRequest& request) {
+  return request.target == "/api/request" && is_stop(operator_request_of(request.body).kind);
+}
+
 std::size_t topic_index(const std::string& name) {
   const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
   if (found == topics::kAll.end())
@@ -73,6 +80,15 @@ void Api::handle(const ApiRequest& request, Answer answer) {
       answer(problem_answer(405, "GET, HEAD or POST is expected"));
   } catch (const BadRequest& error) {
     answer(problem_answer(400, error.what()));
+  }
+}
+
+bool Api::is_permitted_stop(const ApiRequest& request) const {
+  try {
+    return request.method == "POST" && request.content_type.starts_with(kJsonType) && stops(request) &&
+           why_not_stop(rules_, request.visitor).empty();
+  } catch (const BadRequest&) {
+    return false;
   }
 }
 
@@ -131,13 +147,11 @@ ApiAnswer Api::history(std::string_view query) const {
 
 void Api::post(const ApiRequest& request, Answer answer) {
   // A form of a foreign page can send text/plain, but cannot send these types without a preflight request.
-  const std::string wanted =
-      request.target.starts_with(kUploadPath) ? "application/octet-stream" : "application/json";
+  const std::string wanted = request.target.starts_with(kUploadPath) ? "application/octet-stream" : kJsonType;
   if (!request.content_type.starts_with(wanted))
     return answer(problem_answer(415, "content type " + wanted + " is expected"));
-  const bool stops = request.target == "/api/request" && is_stop(operator_request_of(request.body).kind);
   const auto why_not =
-      stops ? why_not_stop(rules_, request.visitor) : why_not_operate(rules_, request.visitor);
+      stops(request) ? why_not_stop(rules_, request.visitor) : why_not_operate(rules_, request.visitor);
   if (!why_not.empty()) return answer(problem_answer(403, why_not));
   const auto now_ns = runtime::monotonic_ns();
   if (request.target == "/api/operator/take") return answer(take_seat(request));

@@ -23,6 +23,8 @@ class Api {
 
   /// Calls `answer` exactly once: at once, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
+  /// True for a stop that the visitor may request with any token.
+  [[nodiscard]] bool is_permitted_stop(const ApiRequest& request) const;
   /// Starts waiting jobs and collects finished ones.
   void poll() { runs_.poll(); }
 

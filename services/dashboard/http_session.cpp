@@ -101,8 +101,8 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
   void was_read(error_code error) {
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
     // A wrong token is answered before any other error: an immediate refusal of the body would reveal that
-    // the token is wrong.
-    if (token_wrong_) return answer_guess();
+    // the token is wrong. A stop that needs no token reveals nothing.
+    if (token_wrong_ && (error || !server_.api().is_permitted_stop(api_request()))) return answer_guess();
     if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
     if (error == http::error::body_limit)
       return refuse(413, "the body is longer than 4096 bytes, or an upload than 16 MB");
@@ -138,26 +138,31 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     start_viewer_session(stream_.release_socket(), parser_->release(), server_, std::move(admission_));
   }
 
+  [[nodiscard]] ApiRequest api_request() const {
+    const auto& request = parser_->get();
+    return {.method = text_of(request.method_string()),
+            .target = text_of(request.target()),
+            .content_type = text_of(request[http::field::content_type]),
+            .body = request.body(),
+            .seat_key = text_of(request["X-Crane-Seat"]),
+            .visitor = visitor()};
+  }
+
   void answer() {
     const auto& request = parser_->get();
-    const ApiRequest api{.method = text_of(request.method_string()),
-                         .target = text_of(request.target()),
-                         .content_type = text_of(request[http::field::content_type]),
-                         .body = request.body(),
-                         .seat_key = text_of(request["X-Crane-Seat"]),
-                         .visitor = visitor()};
     if (!admission_) return;  // displaced
     const bool history = view_of(request.target()).starts_with("/api/history");
     const auto now = std::chrono::steady_clock::now();
     if (history && !server_.permits_history(admission_->client(), now)) return refuse(503, kTooManyAnswers);
     stream_.expires_never();  // the supervisor answers within 2 s; otherwise RequestSender answers
-    server_.api().handle(api, [self = shared_from_this(), head = request.method() == http::verb::head,
-                               keep = request.keep_alive(), history, now](ApiAnswer answer) {
-      if (history && self->admission_)
-        self->server_.histories().count(self->admission_->client(), now, answer.body.size());
-      if (answer.status == 403) self->server_.refuse();
-      self->send(std::move(answer), keep, head);
-    });
+    server_.api().handle(
+        api_request(), [self = shared_from_this(), head = request.method() == http::verb::head,
+                        keep = request.keep_alive(), history, now](ApiAnswer answer) {
+          if (history && self->admission_)
+            self->server_.histories().count(self->admission_->client(), now, answer.body.size());
+          if (answer.status == 403) self->server_.refuse();
+          self->send(std::move(answer), keep, head);
+        });
   }
 
   /// Answers a wrong token after kGuessDelay, for every request, so that the attacker learns nothing before.

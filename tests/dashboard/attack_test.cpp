@@ -47,6 +47,27 @@ TEST_F(WithToken, TheRigsOwnComputerMayStopWithoutIt) {
   EXPECT_EQ(requests_, 1);
 }
 
+TEST_F(WithToken, TheRigsOwnComputerMayStopWithAWrongOneAndLearnsNothingAboutIt) {
+  for (const auto* kind : {"stop", "estop"}) {
+    const auto begin = Clock::now();
+    EXPECT_EQ(ask("/api/request", {{"kind", kind}}, "guess").result_int(), 200U) << kind;
+    EXPECT_LT(Clock::now() - begin, kGuessDelay) << kind;
+  }
+  EXPECT_EQ(requests_, 2);
+  const std::string head = "POST /api/request HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer guess\r\n";
+  const std::string json_type = "Content-Type: application/json\r\n";
+  for (const auto& request :
+       {head + json_type + "Content-Length: 14\r\n\r\n{\"kind\":\"arm\"}",
+        head + json_type + "Content-Length: 15\r\n\r\n{\"kind\":\"stop\"",
+        head + "Content-Type: text/plain\r\nContent-Length: 15\r\n\r\n{\"kind\":\"stop\"}",
+        head + json_type + "X-Forwarded-For: 192.0.2.1\r\nContent-Length: 15\r\n\r\n{\"kind\":\"stop\"}"}) {
+    const auto begin = Clock::now();
+    EXPECT_NE(raw(request).find("403"), std::string::npos) << request;
+    EXPECT_GE(Clock::now() - begin, kGuessDelay) << request;
+  }
+  EXPECT_EQ(requests_, 2);
+}
+
 TEST_F(WithToken, AWrongTokenIsAnsweredLateAndDelaysNoOtherRequest) {
   const auto begin = Clock::now();
   std::vector<std::future<std::pair<unsigned, Clock::duration>>> guesses;
