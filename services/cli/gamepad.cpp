@@ -1,8 +1,11 @@
 #include "cli/gamepad.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
-#include <iostream>
 #include <system_error>
+
+#include "cli/terminal.hpp"
 
 namespace crane::cli {
 
@@ -15,7 +18,8 @@ void Gamepad::read(double now_s) {
   const int error = reader_(events_);
   for (const auto& event : events_) law_.take(event, now_s);
   if (law_.waits_for_centre() && !asked_for_centre_)
-    std::cerr << "gamepad: let go of the sticks: they act after they have been in the centre" << std::endl;
+    print_unless_blocked(STDERR_FILENO,
+                         "gamepad: let go of the sticks: they act after they have been in the centre\n");
   asked_for_centre_ = law_.waits_for_centre();
   if (error == ENODEV)
     problem_ = "the gamepad " + name_ +

@@ -36,6 +36,12 @@ TerminalSize terminal_size() {
   return {size.ws_col, size.ws_row};
 }
 
+void print_unless_blocked(int descriptor, std::string_view line) {
+  pollfd output{descriptor, POLLOUT, 0};
+  if (::poll(&output, 1, 0) <= 0 || (output.revents & POLLOUT) == 0) return;
+  [[maybe_unused]] const auto written = ::write(descriptor, line.data(), line.size());
+}
+
 std::size_t width_of(std::string_view text) {
   std::size_t width = 0;
   for (const char c : text) width += continues_character(c) ? 0 : 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// Views that refresh in place on the terminal of the command.
+/// Output on the terminal of the command: views that refresh in place, and lines that never wait.
 #include <termios.h>
 
 #include <optional>
@@ -15,6 +15,10 @@ struct TerminalSize {
 [[nodiscard]] bool output_is_terminal();
 /// Size of the terminal; 80 x 24 when standard output is not a terminal.
 [[nodiscard]] TerminalSize terminal_size();
+
+/// Writes a line of at most 512 bytes, or nothing while nobody reads the output (a full pipe, a paused
+/// terminal). A program that moves the crane therefore continues to read the keys that stop it.
+void print_unless_blocked(int descriptor, std::string_view line);
 
 /// Characters of a UTF-8 text, each one column wide.
 [[nodiscard]] std::size_t width_of(std::string_view text);

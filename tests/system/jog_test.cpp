@@ -1,6 +1,10 @@
 /// The program `crane jog` with a running stack: deflections, inching, return to the stop point, and the stop
 /// of the crane when the program ends.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -182,6 +186,33 @@ TEST_F(JogKeyboard, StopsTheCraneDuringAStepAlsoAfterCtrlS) {
   jog.type(" ");
   EXPECT_TRUE(until(crane_STATE_LOCKED));
   EXPECT_EQ(jog.wait(10s), 1);
+}
+
+/// Nobody reads the pipe that receives the output.
+TEST_F(JogKeyboard, StopsTheCraneDuringAStepAlsoWhenItsOutputIsBlocked) {
+  const auto pipe = std::filesystem::path{testing::TempDir()} / ("jog_output_" + std::to_string(::getpid()));
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int end = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(end, 0);
+  TerminalRun jog{"/bin/sh",
+                  {"-c", "exec \"$0\" jog --inch --step 50mm --domain \"$1\" --crane \"$2\" > \"$3\"",
+                   (stack::program_directory() / "crane").string(), std::to_string(kDomain),
+                   stack_.bus_options().crane, pipe.string()},
+                  120,
+                  24};
+  pollfd mode{end, POLLIN, 0};
+  ASSERT_EQ(::poll(&mode, 1, 20'000), 1) << "no output";
+  stack_.listen(1s);
+  while (::write(end, "x", 1) == 1) {
+  }
+  jog.type(kUp);
+  EXPECT_TRUE(until_the_trolley_moves());
+  jog.type("i");  // reports the mode
+  jog.type(" ");
+  EXPECT_TRUE(until(crane_STATE_LOCKED));
+  EXPECT_EQ(jog.wait(10s), 1);
+  ::close(end);
+  std::filesystem::remove(pipe);
 }
 
 TEST_F(JogKeyboard, StopsTheCraneWhenTheTerminalClosesDuringAStep) {

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <sstream>
 
 #include "cli/jog_loop.hpp"
 #include "cli/stick_keys.hpp"
+#include "cli/terminal.hpp"
 #include "jog.hpp"
 
 namespace crane::cli {
@@ -14,7 +16,7 @@ namespace {
 
 /// Switches off echo and line editing of the terminal. Ctrl-C still ends the program. Suspending is switched
 /// off, because a suspended program would leave these settings to the shell. Ctrl-S is switched off: on a
-/// paused terminal the next message would block the program, and no key would stop a step or a return.
+/// paused terminal the operator would see no messages.
 class RawTerminal {
  public:
   RawTerminal() {
@@ -66,10 +68,12 @@ class Keyboard : public OperatorStick {
   [[nodiscard]] const std::string& problem() const override { return problem_; }
 
   void print_mode() const {
+    std::ostringstream line;
     if (keys_.inching())
-      std::cout << "inching: each key press moves one axis by " << step_m_ * 1e3 << " mm" << std::endl;
+      line << "inching: each key press moves one axis by " << step_m_ * 1e3 << " mm\n";
     else
-      std::cout << (keys_.micro() ? "micro-speed" : "full speed") << std::endl;
+      line << (keys_.micro() ? "micro-speed\n" : "full speed\n");
+    print_unless_blocked(STDOUT_FILENO, line.str());
   }
 
  private:
