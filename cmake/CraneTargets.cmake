@@ -50,20 +50,21 @@ function(crane_executable name)
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK})
 endfunction()
 
-# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE] | LOOP])
+# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [QUIET | ALONE] | LOOP])
 # GoogleTest program; each TEST becomes one CTest test. SERIAL: the tests of this program run one after the other (real time, real
 # DDS), beside tests of other programs, each of which has DDS domains of its own. The program with the longest TIMEOUT begins first,
-# because its tests form the longest chain. ALONE: no other test runs at the same time. Tests are ALONE when they require that the
-# loop loses no tick, judge reactions to the millisecond, or require that a handshake of DDS Security ends in time, or when their
-# floods occupy the real-time scheduling of all stacks; they have the label "alone". SERIAL tests have the main() of
-# tests/real_time: a failure is final unless a bare timer proves that the computer paused. All other programs carry the label "unit",
-# unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a crane moves; they carry the
-# label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too. TIMEOUT ends a test that hangs; it
-# limits no computation, because tests that compute get only the time that the stacks leave (deploy/test).
+# because its tests form the longest chain. QUIET (label "quiet"): nothing computes at the same time, and at most one other program
+# runs. Tests are QUIET when they require that the loop loses no tick or judge reactions to the millisecond. ALONE (label "alone"): no
+# other test runs at the same time, because a flood occupies the real-time scheduling of all stacks, or because a handshake of DDS
+# Security must end in time. SERIAL tests have the main() of tests/real_time: a failure is final unless a bare timer proves that the
+# computer paused. All other programs carry the label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP:
+# tests of code that runs while a crane moves; they carry the label "unit-loop" (CTest discovers tests with one label only) and are
+# built by loop_tests, too. TIMEOUT ends a test that hangs; it limits no computation, because tests that compute get only the time
+# that the stacks leave (deploy/test).
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
-  cmake_parse_arguments(ARG "SERIAL;ALONE;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;QUIET;ALONE;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
@@ -82,6 +83,8 @@ function(crane_test name)
     if(ARG_ALONE)
       set(properties RUN_SERIAL TRUE)
       set(ARG_LABELS alone)
+    elseif(ARG_QUIET)
+      set(ARG_LABELS quiet)
     endif()
   else()
     set(properties "")

@@ -43,7 +43,9 @@ ProcessReplay::ProcessReplay(std::vector<runtime::ComponentSpec> components, con
               .priority = 0},
       bus_{[this] {
         launch_.bus.crane += "_replay_" + std::to_string(::getpid());  // differs from that of a running crane
-        return bus::Bus{runtime::bus_options(launch_.bus, "crane_replay", crane_SOURCE_MONITOR, 1)};
+        auto own = runtime::bus_options(launch_.bus, "crane_replay", crane_SOURCE_MONITOR, 1);
+        own.confirms_soon = true;  // deliver() waits for every sample of the stick
+        return bus::Bus{own};
       }()},
       replies_{bus_.subscriber(topics::reply)},
       outputs_{bus_, components_, run.rig().design},

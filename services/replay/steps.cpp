@@ -69,8 +69,10 @@ void decide_supervisor(const RecordedTick& tick, const RecordedTick* next,
                        std::optional<std::uint64_t> missing_demand, Steps& steps) {
   const auto status = sample_of(topics::supervisor, tick);
   steps.supervisor = has_supervisor_stepped(tick, next);
-  steps.supervisor_has_demand =
-      status && missing_demand ? status->missing_demand_count == *missing_demand : steps.friction;
+  // The count begins with 0: a supervisor that counts 0 has had the demand of every tick.
+  const auto before =
+      status && status->missing_demand_count == 0 ? std::optional<std::uint64_t>{0} : missing_demand;
+  steps.supervisor_has_demand = status && before ? status->missing_demand_count == *before : steps.friction;
   steps.friction = steps.friction || (steps.supervisor && steps.supervisor_has_demand);
   const auto& reference = topics::reference.description;
   const Published decided{tick, topics::supervisor.description};

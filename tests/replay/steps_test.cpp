@@ -70,6 +70,15 @@ TEST_F(StepsOf, ADemandThatOnlyTheRecorderMissedWasPublished) {
   EXPECT_EQ(irregularity(steps()), "") << "the supervisor counts no missing demand";
 }
 
+/// The recorder missed the status of the tick before, too.
+TEST_F(StepsOf, ASupervisorThatCountsNoMissingDemandHadIt) {
+  omit(now_, topics::demand);
+  publish_status(500'000, 0);
+  EXPECT_TRUE(steps_of(now_, &next_, kPeriod_ns, std::nullopt).supervisor_has_demand);
+  publish_status(500'000, 1);
+  EXPECT_FALSE(steps_of(now_, &next_, kPeriod_ns, std::nullopt).supervisor_has_demand);
+}
+
 TEST_F(StepsOf, ADemandThatTheSupervisorMissesWasNotPublished) {
   omit(now_, topics::demand);
   publish_status(500'000, 8);

@@ -49,8 +49,9 @@ std::string configuration(const Options& options, bool numbered = true) {
   }
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
   const bool network = crosses_network(options);
-  const auto heartbeat = std::to_string((network ? kNetworkHeartbeat : kHeartbeat).count()) + "ms";
-  const std::string least = network ? "1ms" : "20ms";
+  const bool often = network || options.confirms_soon;
+  const auto heartbeat = std::to_string((often ? kNetworkHeartbeat : kHeartbeat).count()) + "ms";
+  const std::string least = often ? "1ms" : "20ms";
   xml += "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"1s\">" + heartbeat;
   xml += "</HeartbeatInterval><NackDelay>";
   xml += network ? "0s" : "1ms";
