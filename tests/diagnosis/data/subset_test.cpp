@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "crane/diagnosis/diagnosis.hpp"
 #include "crane/diagnosis/mapping.hpp"
 #include "laboratory/strange_lab.hpp"
@@ -90,21 +92,40 @@ TEST(SubsetOfColumns, ASupportAtRestMayBeAConstantOfTheMapping) {
 }
 
 /// A rotary pendulum is a tower crane whose trolley stands still.
-TEST(SubsetOfColumns, AnAxisAtRestNeedsNoCommandBesideACommandedAxis) {
-  const auto tower = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+recording::Table rotary_arm(const std::function<double(int)>& trolley_m) {
   std::string text = "time_s,slew_voltage_v,slew_angle_rad,swing_tangential_rad,trolley_position_m\n";
   for (int row = 0; row < 400; ++row) {
     const double t = 0.01 * row;
     text += std::to_string(t) + "," + std::to_string(2 * std::sin(3 * t)) + "," +
-            std::to_string(0.2 * std::sin(3 * t)) + "," + std::to_string(0.05 * std::sin(5 * t)) + ",0.6\n";
+            std::to_string(0.2 * std::sin(3 * t)) + "," + std::to_string(0.05 * std::sin(5 * t)) + "," +
+            std::to_string(trolley_m(row)) + "\n";
   }
-  const Loaded loaded = load_run(recording::parse_csv(text, "arm.csv"), tower, "arm.csv");
+  return recording::parse_csv(text, "arm.csv");
+}
+
+TEST(SubsetOfColumns, AnAxisAtRestNeedsNoCommandBesideACommandedAxis) {
+  const auto tower = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  const Loaded loaded = load_run(rotary_arm([](int) { return 0.6; }), tower, "arm.csv");
   ASSERT_EQ(loaded.runs.size(), 1U);
   EXPECT_TRUE(loaded.runs[0].commanded[kSlewAngle]);
   EXPECT_FALSE(loaded.runs[0].commanded[kTrolleyPosition]);
-  text += "4,0,0,0,0.61\n";
-  EXPECT_THROW((void)load_run(recording::parse_csv(text, "arm.csv"), tower, "arm.csv"), DataError)
+  EXPECT_THROW((void)load_run(rotary_arm([](int row) { return row < 399 ? 0.6 : 0.61; }), tower, "arm.csv"),
+               DataError)
       << "a moving trolley";
+}
+
+TEST(SubsetOfColumns, AnAxisAtRestMayFlickerBetweenNeighbouringCounts) {
+  const auto tower = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  const double count_m = 1 / tower.encoders[plant::kTrolley].counts_per_unit;
+  const auto flicker = [&](double counts) {
+    return rotary_arm([=](int row) { return 0.6 + (row % 7 == 3 ? counts * count_m : 0); });
+  };
+  const Loaded loaded = load_run(flicker(1), tower, "arm.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  EXPECT_THAT(loaded.notes, testing::Contains(HasSubstr("stays within 2 counts")));
+  for (const double measured_m : loaded.runs[0].measured[kTrolleyPosition])
+    EXPECT_NEAR(measured_m, 0.6, 1e-6) << "no motion of the support";
+  EXPECT_THROW((void)load_run(flicker(3), tower, "arm.csv"), DataError);
 }
 
 TEST(SubsetOfColumns, AMotionWithoutCommandAndSwingIsRefused) {

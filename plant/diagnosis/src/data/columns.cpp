@@ -6,10 +6,14 @@
 #include <numbers>
 
 #include "crane/diagnosis/mapping.hpp"
+#include "data/median.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
+constexpr std::array kCommands{"trolley_voltage_v", "slew_voltage_v"};
+/// Counts over which the encoder of an axis at rest may flicker.
+constexpr double kRestingCounts = 2, kRounding_counts = 0.5;
 /// A smaller command may not overcome friction.
 constexpr double kStandingCommand_v = 0.5;
 /// A larger swing is not in radians: more than half a turn.
@@ -64,8 +68,7 @@ class Checks {
   void find_commands() {
     bool any = false, swings = false;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      const char* column = axis == plant::kTrolley ? "trolley_voltage_v" : "slew_voltage_v";
-      columns_.commands[axis] = {column, table_.find(column)};
+      columns_.commands[axis] = {kCommands[axis], table_.find(kCommands[axis])};
       any = any || columns_.commands[axis].values != nullptr;
     }
     for (const Output swing : {kRadialSwing, kTangentialSwing})
@@ -201,6 +204,27 @@ bool times_increase(recording::Table& table, Findings& findings) {
   if (t.size() - repeated >= 3) return true;
   findings.problem("time_s", "fewer than three rows", "record longer");
   return false;
+}
+
+void hold_axes_at_rest(recording::Table& table, const configuration::Rig& rig, Findings& findings) {
+  const bool commanded =
+      std::ranges::any_of(kCommands, [&](const char* name) { return table.find(name) != nullptr; });
+  for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
+    const auto column = std::ranges::find(table.columns, std::string_view{kOutputNames[axis]},
+                                          &recording::Table::Column::name);
+    if (!commanded || table.find(kCommands[axis]) != nullptr || column == table.columns.end()) continue;
+    const double range = range_of(column->values);
+    if (!(range > 0 && range * rig.encoders[axis].counts_per_unit < kRestingCounts + kRounding_counts))
+      continue;
+    std::vector<double> finite;
+    std::ranges::copy_if(column->values, std::back_inserter(finite),
+                         [](double x) { return std::isfinite(x); });
+    const double rest = median(std::move(finite));
+    for (double& value : column->values)
+      if (std::isfinite(value)) value = rest;
+    findings.note(column->name + " stays within " + number(kRestingCounts) + " counts: at rest at " +
+                  number(rest));
+  }
 }
 
 Columns checked_columns(const recording::Table& table, const configuration::Rig& rig, Findings& findings) {

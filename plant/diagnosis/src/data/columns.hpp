@@ -38,6 +38,10 @@ struct Findings {
 /// Whether times increase. Rows that repeat a time are removed.
 [[nodiscard]] bool times_increase(recording::Table& table, Findings& findings);
 
+/// Replaces the positions of an axis at rest by their median: an axis without command, beside a commanded
+/// axis, whose positions stay within 2 counts. A flickering count would be a motion of the support.
+void hold_axes_at_rest(recording::Table& table, const configuration::Rig& rig, Findings& findings);
+
 /// Finds the columns of the rig and checks their names, units and values.
 [[nodiscard]] Columns checked_columns(const recording::Table& table, const configuration::Rig& rig,
                                       Findings& findings);

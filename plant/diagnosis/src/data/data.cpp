@@ -213,6 +213,7 @@ Loaded load_run(const recording::Table& table, const configuration::Rig& rig, co
   recording::Table kept = table;
   const bool timed = times_increase(kept, findings);
   if (timed) leave_broken_out(kept, rig, findings);
+  hold_axes_at_rest(kept, rig, findings);
   const Columns columns = checked_columns(kept, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);
   std::vector<Run> runs = RunSplitter(columns, rig, findings).runs();
