@@ -247,6 +247,9 @@ void write_contents(hid_t file, recording::McapReader& recording, const std::str
 
 void write_hdf5(const std::filesystem::path& file, recording::McapReader& recording,
                 const std::string& topic) {
+  // Every handle is closed below. After a failed write, the clean-up of the library at the end of the program
+  // would crash.
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported by exceptions
   write_completely(file, [&](const std::string& partial) {
     errno = 0;

@@ -178,9 +178,9 @@ Structure topic_structure(const std::string& topic, const std::string& type, con
   return structure;
 }
 
-[[noreturn]] void fail_to_write() {
-  throw std::runtime_error(std::string{"cannot write: "} +
-                           (errno != 0 ? std::strerror(errno) : "the matio library reports an error"));
+/// @param reason  if the system has reported none
+[[noreturn]] void fail_to_write(const char* reason = "the matio library reports an error") {
+  throw std::runtime_error(std::string{"cannot write: "} + (errno != 0 ? std::strerror(errno) : reason));
 }
 
 void write_variable(mat_t* file, const Structure& structure) {
@@ -200,7 +200,8 @@ void require_complete(const std::string& name, std::size_t variables) {
     if (!file.seekg(at).read(reinterpret_cast<char*>(tag.data()), kTag)) break;
     at += kTag + static_cast<std::streamoff>(tag[1]);
   }
-  if (at != size || found != variables) fail_to_write();
+  if (at != size || found != variables)
+    fail_to_write("the file is incomplete, as on a full disk: check the free space");
 }
 
 /// @return number of variables

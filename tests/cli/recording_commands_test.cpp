@@ -1,10 +1,16 @@
 // crane log and crane replay, started as by a user: exit codes, refusals, and protection of existing files.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
 
 #include "../replay/recorded_crane.hpp"
 #include "../system/program_run.hpp"
+#include "recording_export/hdf5_export.hpp"
+#include "recording_export/matlab_export.hpp"
 #include "stack/child_processes.hpp"
 
 namespace crane::cli {
@@ -140,6 +146,28 @@ TEST_F(RecordingCommands, LeaveNoPartOfAnExportThatFails) {
     EXPECT_THAT(unknown.errors, HasSubstr("the recording has no topic 'nothing'; it has crane/state"));
     EXPECT_FALSE(std::filesystem::exists(path("a.out.partial")));
   }
+}
+
+/// A limit of the size of files acts like a full disk. The library cleans up when the program exits.
+TEST_F(RecordingCommands, AnExportToAFullDiskFailsWithItsReasonAndACleanExit) {
+  using Write = void (*)(const std::filesystem::path&, recording::McapReader&, const std::string&);
+  const auto write_and_exit = [&](Write write) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{10'000, 10'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      recording::McapReader reader{run_};
+      write(path("full.out"), reader, "");
+    } catch (const std::runtime_error& error) {
+      std::cerr << error.what();
+    }
+    std::exit(3);
+  };
+  EXPECT_EXIT(write_and_exit(recording_export::write_hdf5), testing::ExitedWithCode(3),
+              "full.out: cannot write: File too large");
+  EXPECT_EXIT(write_and_exit(recording_export::write_matlab), testing::ExitedWithCode(3),
+              "full.out: cannot write: .*(File too large|free space)");
+  EXPECT_FALSE(std::filesystem::exists(path("full.out.partial")));
 }
 
 TEST_F(RecordingCommands, ReplayNamesTheDifferenceWithExitCode1) {
