@@ -18,8 +18,8 @@ using Eigen::Vector2d;
 constexpr std::size_t kLines = 400;
 /// Distance of lines, in 1 / travel.
 constexpr double kLineSpacing = 0.25;
-/// First line: half a wave over the travel. A longer wave has the shape of a position force.
-constexpr std::size_t kFirstLine = 2;
+/// First line: one wave over the travel. A longer wave has the shape of a position force.
+constexpr std::size_t kFirstLine = 4;
 /// Subdivisions between two lines, so that the phase of the wave fits over the whole travel.
 constexpr std::size_t kRefinement = 8;
 /// Cosine and sine.

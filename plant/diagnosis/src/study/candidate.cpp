@@ -19,8 +19,10 @@ InRigFile in_rig_file(bool known) { return known ? InRigFile::yes : InRigFile::n
 
 /// Travel of the support [m or rad] below which an error of its sensor is not visible.
 constexpr double kResting = 0.005;
-/// Longest wave of a force or a friction along the travel, in travels: half a wave.
-constexpr double kLongestWave = 2;
+/// Longest wave along the travel, in travels. Of a friction: half a wave, the slope beside a tight spot. Of a
+/// ripple: one wave. A longer part of a wave does not show that a force is periodic: a spring at one end of
+/// the travel has the same form.
+constexpr double kLongestWave = 2, kLongestRipple = 1;
 
 class Builder {
  public:
@@ -205,7 +207,7 @@ class Builder {
         at_once("torque_ripple", axis,
                 {free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
                  free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
-                 free_parameter("torque_ripple", "period", 1e-3, kLongestWave * travelled(output), 1e-4)},
+                 free_parameter("torque_ripple", "period", 1e-3, kLongestRipple * travelled(output), 1e-4)},
                 {});
     ripple.waves = true;
     add_force(GoesWith::position, std::move(ripple));
