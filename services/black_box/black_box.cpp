@@ -112,8 +112,9 @@ int run(const Options& options) {
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
   if (error || ::access(options.directory.c_str(), W_OK) != 0)
-    throw configuration::ConfigurationError(
-        {"--out = " + options.directory.string() + ": must be a directory that this user can write"});
+    throw configuration::ConfigurationError({"directory of the black box = " + options.directory.string() +
+                                             ": must be a directory that this user can write; --out of crane "
+                                             "black-box, --black-box of crane up"});
   Writer writer{options, origin_of(options)};
   bus::Bus bus{
       runtime::bus_options(options.bus, "crane_black_box", crane_SOURCE_RECORDER, runtime::random_epoch())};
@@ -129,10 +130,18 @@ int run(const Options& options) {
     observer.poll();
     keep(false);
   }
-  // Receives samples that are still in transit. The end of the other processes is not a fault.
+  // Receives samples that are still in transit. The end of the other processes is not a fault, but the end of
+  // `crane up` before them is. The kernel announces the end of a parent before getppid() shows it.
   const auto stop_ns = observation::log_now_ns();
   incidents.ignore_causes_after(stop_ns);
   while (observation::log_now_ns() < stop_ns + kLinger_ns) observer.poll();
+  if (options.parent != 0 && ::getppid() != options.parent)
+    incidents.add(
+        {.at_ns = stop_ns,
+         .from = "crane_up",
+         .what = "STACK_KILLED",
+         .explanation = "crane up ended before its processes, which then ended, too",
+         .remedy = "look for the cause in the log of the system (no memory?), then start crane up again"});
   keep(true);
   return runtime::kExitDone;
 }

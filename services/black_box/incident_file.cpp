@@ -19,7 +19,9 @@ std::string utc(std::int64_t time_ns) {
 
 recording::Metadata trigger_of(const Incident& incident) {
   return {{"first_cause", incident.first.what},
+          {"first_cause_explanation", incident.first.explanation},
           {"first_cause_from", incident.first.from},
+          {"first_cause_remedy", incident.first.remedy},
           {"first_cause_tick", std::to_string(incident.first.tick)},
           {"first_cause_ns", std::to_string(incident.first.at_ns)},
           {"faults", std::to_string(incident.faults)}};

@@ -5,9 +5,7 @@
 namespace crane::black_box {
 
 bool is_stop(const observation::Note& note) {
-  if (note.kind == observation::Note::Kind::fault) return true;
-  return note.kind == observation::Note::Kind::order &&
-         (note.what == "OPERATOR_STOP" || note.what == "OPERATOR_ESTOP");
+  return note.kind == observation::Note::Kind::fault || observation::is_operator_stop(note);
 }
 
 void Incidents::add(const SamplePtr& sample) {

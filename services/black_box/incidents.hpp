@@ -32,6 +32,8 @@ class Incidents {
   explicit Incidents(std::int64_t started_ns) : started_ns_{started_ns}, history_{kKept_ns} {}
 
   void add(const SamplePtr& sample);
+  /// Adds a fact that no sample states.
+  void add(observation::Note note) { timeline_.add(std::move(note)); }
   /// @param ends  true: no more samples will come; an open incident is returned at once
   /// @return an incident that is complete; at most one per call
   [[nodiscard]] std::optional<Incident> poll(std::int64_t now_ns, std::int64_t log_now_ns, bool ends = false);

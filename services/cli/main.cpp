@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 
 #include "commands/commands.hpp"
@@ -89,6 +90,15 @@ const CLI::App& deepest_of(const CLI::App& app) {
   return named.empty() ? app : deepest_of(*named.front());
 }
 
+/// A result that could not be written, for example to a full disk, is a failure.
+int written(int exit_code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  std::cerr
+      << "crane: standard output: not everything could be written: the disk is full, or the output closed\n";
+  return exit_code == runtime::kExitDone ? runtime::kExitFailed : exit_code;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
   app.set_version_flag("--version", "crane " CRANE_VERSION);
@@ -119,5 +129,5 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // a write beyond the file-size limit then fails with an error message instead of a signal
   std::signal(SIGXFSZ, SIG_IGN);
-  return run(argc, argv);
+  return written(run(argc, argv));
 }

@@ -1,4 +1,5 @@
 #include "cli/topic_reader.hpp"
+#include "cli/number_range.hpp"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -65,8 +66,8 @@ void add_topic_options(CLI::App& command, TopicOptions& options) {
           "crane/state, or state")
       ->required()
       ->type_name("TOPIC");
-  command.add_option("--duration", options.duration_s, "duration in s")->check(CLI::PositiveNumber);
-  command.add_option("--count", options.count, "number of samples")->check(CLI::PositiveNumber);
+  command.add_option("--duration", options.duration_s, "duration in s")->check(positive_number());
+  command.add_option("--count", options.count, "number of samples")->check(positive_number());
   command.add_flag("--json", options.json, "print one JSON object per line");
   runtime::add_bus_options(command, options.bus);
 }

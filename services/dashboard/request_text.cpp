@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "crane/fields/printable.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/supervisor/modes.hpp"
 
@@ -75,10 +77,13 @@ void read_mode(const json& body, stack::OperatorRequest& wanted) {
 
 stack::OperatorRequest operator_request_of(std::string_view text) {
   constexpr int kDeepest = 2;
+  std::set<std::string> keys;
   const auto body = json::parse(
       text,
-      [](int depth, json::parse_event_t, json&) {
+      [&keys](int depth, json::parse_event_t event, json& parsed) {
         if (depth > kDeepest) throw BadRequest("the body is nested too deeply");
+        if (event == json::parse_event_t::key && !keys.insert(parsed.get<std::string>()).second)
+          throw BadRequest(fields::printable(parsed.get<std::string>()) + ": occurs twice");
         return true;
       },
       false);

@@ -49,6 +49,10 @@ bool works(crane_SupervisorState state) {
 
 }  // namespace
 
+bool is_operator_stop(const Note& note) {
+  return note.kind == Note::Kind::order && (note.what == "OPERATOR_STOP" || note.what == "OPERATOR_ESTOP");
+}
+
 void FaultTimeline::add(const Sample& sample) {
   if (msg::SupervisorStatus status; decode(topics::supervisor, sample, status))
     add_status(sample, status);
@@ -64,25 +68,39 @@ void FaultTimeline::add_status(const Sample& sample, const msg::SupervisorStatus
     changed_ = true;
   }
   if (status.cause == cause_) return;
+  const bool earlier = !cause_;
   cause_ = status.cause;
-  if (cause_ == crane_CAUSE_NONE || cause_ == crane_CAUSE_START) return;
-  const auto cause = static_cast<supervisor::Cause>(cause_);
-  put({sample.log_time_ns, sample.header.tick, kind_of(cause_), "supervisor", supervisor::name_of(cause),
-       std::string{"the supervisor went to "} +
-           supervisor::name_of(static_cast<supervisor::State>(status.state)),
-       supervisor::remedy_for(cause), "supervisor/supervisor_state"});
+  if (status.cause == crane_CAUSE_NONE || status.cause == crane_CAUSE_START) return;
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
+  const std::string state = supervisor::name_of(static_cast<supervisor::State>(status.state));
+  put({.at_ns = sample.log_time_ns,
+       .tick = sample.header.tick,
+       .kind = kind_of(status.cause),
+       .from = "supervisor",
+       .what = supervisor::name_of(cause),
+       .explanation = (earlier ? "the supervisor was in " : "the supervisor went to ") + state,
+       .remedy = supervisor::remedy_for(cause),
+       .key = "supervisor/supervisor_state",
+       .earlier = earlier});
 }
 
 void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
   if (state.latch_reason == latch_) return;
+  const bool earlier = !latch_;
   latch_ = state.latch_reason;
-  if (latch_ == crane_LATCH_NONE) return;
-  const auto reason = static_cast<bridge::Reason>(latch_);
+  if (state.latch_reason == crane_LATCH_NONE) return;
+  const auto reason = static_cast<bridge::Reason>(state.latch_reason);
+  const std::string bridge = source_name(sample.header.source), name{bridge::name_of(reason)};
   // The supervisor withdraws the watchdog permission after every stop. Missing commands are then not a fault.
-  put({sample.log_time_ns, sample.header.tick, Note::Kind::fault, source_name(sample.header.source),
-       "LATCH_" + std::string{bridge::name_of(reason)}, std::string{bridge::explanation_of(reason)},
-       std::string{bridge::remedy_for(reason)},
-       std::string{source_name(sample.header.source)} + "/" + std::string{bridge::name_of(reason)}});
+  put({.at_ns = sample.log_time_ns,
+       .tick = sample.header.tick,
+       .kind = Note::Kind::fault,
+       .from = bridge,
+       .what = "LATCH_" + name,
+       .explanation = std::string{bridge::explanation_of(reason)},
+       .remedy = std::string{bridge::remedy_for(reason)},
+       .key = bridge + "/" + name,
+       .earlier = earlier});
 }
 
 void FaultTimeline::add_event(const Sample& sample, const msg::Event& event) {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "observation/history.hpp"
@@ -32,7 +33,11 @@ struct Note {
   std::string key{};       ///< equal for a cause or latch and the event that announces it
   bool event = false;      ///< true: from crane/event
   bool announced = false;  ///< true: this note combines an event with the cause or latch that it announces
+  bool earlier = false;  ///< true: a cause or latch of the first sample, so that the stop occurred before it
 };
+
+/// True for a stop or emergency stop that an operator requested; false for disarm, idle time and homing.
+[[nodiscard]] bool is_operator_stop(const Note& note);
 
 struct Fault {
   std::uint64_t number = 0;                  ///< 1, 2, ...
@@ -51,6 +56,8 @@ class FaultTimeline {
   static constexpr std::size_t kMostFaults = 100, kMostNotes = 40, kMostMoments = 8;
 
   void add(const Sample& sample);
+  /// Adds a fact that no sample states.
+  void add(Note note) { put(std::move(note)); }
   /// Detects silent processes, and stores the data around a fault when they are complete.
   /// @return true when a fault is new or has changed since the last call
   bool poll(std::int64_t now_ns, std::int64_t log_now_ns, const Traffic& traffic, const History& history);
@@ -70,9 +77,9 @@ class FaultTimeline {
   void keep_moments(std::int64_t log_now_ns, const History& history);
 
   std::deque<Fault> faults_;
-  crane_Cause cause_ = crane_CAUSE_NONE;
-  crane_LatchReason latch_ = crane_LATCH_NONE;
-  std::map<std::uint32_t, bool> silent_;  ///< by node number
+  std::optional<crane_Cause> cause_;        ///< of the last status; nothing: no status yet
+  std::optional<crane_LatchReason> latch_;  ///< of the last state; nothing: no state yet
+  std::map<std::uint32_t, bool> silent_;    ///< by node number
   std::uint64_t next_number_ = 1;
   bool changed_ = false;
 };

@@ -2,23 +2,11 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <system_error>
 
+#include "crane/recording/complete_file.hpp"
 #include "crane/recording/run_table.hpp"
 
 namespace crane::recording_export {
-namespace {
-
-struct RemovedAtTheEnd {
-  std::filesystem::path file;
-  ~RemovedAtTheEnd() {
-    std::error_code ignored;
-    std::filesystem::remove(file, ignored);
-  }
-};
-
-}  // namespace
-
 std::map<std::string, std::string> export_facts(recording::McapReader& recording) {
   std::map<std::string, std::string> facts{{"exported_by", "crane " CRANE_VERSION}};
   std::string files;
@@ -43,11 +31,11 @@ std::optional<std::string> common_unit(const recording::Column& column) {
   return equal ? std::optional{column.units[0]} : std::nullopt;
 }
 
-void write_completely(const std::filesystem::path& file,
+void write_completely(const std::filesystem::path& file, const recording::McapReader& recording,
                       const std::function<void(const std::string& partial)>& write) {
-  const RemovedAtTheEnd partial{file.string() + ".partial"};
+  recording::CompleteFile out{file, recording.files()};
   try {
-    write(partial.file.string());
+    write(out.partial().string());
   } catch (const recording::DecodeError&) {
     throw;
   } catch (const recording::SchemaError&) {
@@ -55,11 +43,7 @@ void write_completely(const std::filesystem::path& file,
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
-  std::error_code failure;
-  std::filesystem::rename(partial.file, file, failure);
-  if (failure)
-    throw std::runtime_error(file.string() + ": cannot rename " + partial.file.string() + ": " +
-                             failure.message());
+  out.publish();
 }
 
 }  // namespace crane::recording_export

@@ -251,7 +251,7 @@ void write_hdf5(const std::filesystem::path& file, recording::McapReader& record
   // would crash.
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported by exceptions
-  write_completely(file, [&](const std::string& partial) {
+  write_completely(file, recording, [&](const std::string& partial) {
     errno = 0;
     Handle out{H5Fcreate(partial.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
     write_contents(out, recording, topic);

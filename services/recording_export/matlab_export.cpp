@@ -242,7 +242,7 @@ std::size_t write_contents(mat_t* file, recording::McapReader& recording, const 
 
 void write_matlab(const std::filesystem::path& file, recording::McapReader& recording,
                   const std::string& topic) {
-  write_completely(file, [&](const std::string& partial) {
+  write_completely(file, recording, [&](const std::string& partial) {
     errno = 0;
     std::unique_ptr<mat_t, decltype(&Mat_Close)> out{
         Mat_CreateVer(partial.c_str(), "MATLAB 5.0 MAT-file, exported by crane", MAT_FT_MAT5), Mat_Close};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "crane/bus/cdr.hpp"
@@ -138,19 +139,58 @@ void require_this_version(const recording::McapReader& reader, const std::filesy
 }  // namespace
 
 const observation::Fault* Review::first_stop() const {
-  for (const auto kind : {Note::Kind::fault, Note::Kind::order})
-    for (const auto& fault : faults)  // in the order of time
-      if (std::ranges::find(fault.notes, kind, &Note::kind) != fault.notes.end()) return &fault;
-  return nullptr;
+  const auto* cause = first_cause();
+  const auto contains = [cause](const observation::Fault& fault) {
+    return std::ranges::any_of(fault.notes, [cause](const Note& note) { return &note == cause; });
+  };
+  const auto found = std::ranges::find_if(faults, contains);
+  return found == faults.end() ? nullptr : &*found;
 }
 
 const Note* Review::first_cause() const {
-  const auto* stop = first_stop();
-  if (stop == nullptr) return nullptr;
-  for (const auto kind : {Note::Kind::fault, Note::Kind::order})
-    for (const auto& note : stop->notes)
-      if (note.kind == kind) return &note;
+  using Rule = bool (*)(const Review&, const Note&);
+  constexpr Rule kRules[]{
+      [](const Review& r, const Note& n) {
+        return r.trigger && n.what == r.trigger->what && n.at_ns == r.trigger->at_ns;
+      },
+      [](const Review& r, const Note& n) { return r.trigger && n.what == r.trigger->what && !n.earlier; },
+      [](const Review&, const Note& n) { return n.kind == Note::Kind::fault && !n.earlier; },
+      [](const Review&, const Note& n) { return observation::is_operator_stop(n) && !n.earlier; },
+      [](const Review&, const Note& n) { return n.kind == Note::Kind::order && !n.earlier; },
+      [](const Review&, const Note& n) { return n.kind != Note::Kind::warning; }};
+  for (const auto rule : kRules)
+    for (const auto& fault : faults)  // in the order of time
+      for (const auto& note : fault.notes)
+        if (rule(*this, note)) return &note;
   return nullptr;
+}
+
+/// Trigger of a recording of the black box, from its metadata; nothing: another recording
+std::optional<Note> trigger_of(recording::McapReader& reader) {
+  const auto records = reader.metadata();
+  const auto record = std::ranges::find(records, "trigger", &recording::MetadataRecord::name);
+  if (record == records.end()) return std::nullopt;
+  const auto value = [&](const char* key) {
+    const auto found = record->entries.find(key);
+    return found == record->entries.end() ? std::string{} : found->second;
+  };
+  return Note{.at_ns = std::strtoll(value("first_cause_ns").c_str(), nullptr, 10),
+              .tick = std::strtoull(value("first_cause_tick").c_str(), nullptr, 10),
+              .from = value("first_cause_from"),
+              .what = value("first_cause"),
+              .explanation = value("first_cause_explanation"),
+              .remedy = value("first_cause_remedy")};
+}
+
+/// No sample states some triggers, for example the end of `crane up`.
+void add_trigger(Review& review) {
+  const auto& trigger = *review.trigger;
+  for (const auto& fault : review.faults)
+    if (std::ranges::find(fault.notes, trigger.what, &Note::what) != fault.notes.end()) return;
+  const auto later = std::ranges::upper_bound(review.faults, trigger.at_ns, {}, &observation::Fault::last_ns);
+  review.faults.insert(
+      later,
+      {.number = review.faults.size() + 1, .notes = {trigger}, .last_ns = trigger.at_ns, .moment = {}});
 }
 
 Review review(const std::filesystem::path& file) {
@@ -161,12 +201,14 @@ Review review(const std::filesystem::path& file) {
   result.begin_ns = reader.first_time_ns();
   result.end_ns = reader.last_time_ns();
   result.wall_clock = result.begin_ns > kYear2000_ns;
+  result.trigger = trigger_of(reader);
   Reader samples{result};
   reader.for_each({}, [&samples](const recording::Message& message) {
     samples.add(message);
     return true;
   });
   samples.finish();
+  if (result.trigger) add_trigger(result);
   result.problems = reader.problems();
   return result;
 }

@@ -2,6 +2,7 @@
 /// Reviews a recording: states, faults with their first cause, figures, curves; as sentences and as a page.
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct Review {
   std::int64_t begin_ns = 0, end_ns = 0;
   bool wall_clock = false;  ///< false: the times are those of a simulation
   std::vector<observation::Fault> faults;
+  std::optional<observation::Note> trigger;  ///< first cause in the metadata of the black box
   std::vector<Phase> phases;
   Curves curves;
   std::array<AxisFigures, 3> axes;
@@ -45,9 +47,10 @@ struct Review {
   std::vector<observation::TopicTraffic> topics;  ///< in the order of topics::kAll
   std::vector<std::string> problems;              ///< problems of the file
 
-  /// The first fault; without a fault the first stop by the operator; nullptr: no stop.
+  /// The stop with the trigger; without it, the first fault; without a fault, the first stop by the operator;
+  /// without any, the first other order, and then a stop before the recording. nullptr: no stop.
   [[nodiscard]] const observation::Fault* first_stop() const;
-  /// First cause of first_stop(). A request of the operator is the cause only when no fault follows.
+  /// First cause of first_stop(): the trigger, the first fault, or, when no fault follows, the order.
   [[nodiscard]] const observation::Note* first_cause() const;
 };
 

@@ -47,6 +47,14 @@ TEST(Options, ADiscoveryServerIsUsedByFastDdsOnlyAndInsteadOfPeers) {
                 HasSubstr("discovery_server: '" + std::string{wrong} + "' must be HOST or HOST:PORT"));
 }
 
+/// A DDS partition with these characters matches the names of several cranes.
+TEST(Options, ANameThatMatchesSeveralCranesIsRefusedByBothVendors) {
+  for (const Vendor vendor : {Vendor::cyclone, Vendor::fastdds})
+    for (const char* name : {"*", "north*", "c?ane", "[ab]"})
+      EXPECT_THAT(refusal({.vendor = vendor, .domain = 40, .crane = name}),
+                  HasSubstr("crane = '" + std::string{name} + "': must not contain any of * ? [ ]"));
+}
+
 TEST(Options, AllProblemsAreReportedAtOnce) {
   EXPECT_THAT(
       refusal({.domain = 200, .crane = "", .interfaces = {}}),

@@ -85,18 +85,6 @@ TEST_F(RecordingCommands, RefuseToOverwriteTheFileOfTheDefaultName) {
   EXPECT_THAT(crane(swap).errors, HasSubstr("run.lqr.csv: exists"));
 }
 
-TEST_F(RecordingCommands, RefuseToWriteOverTheirSourceEvenWithForce) {
-  const auto before = contents_of(run_);
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"log", "cut", run_, run_, "--force"},
-        std::vector<std::string>{"log", "repair", run_, "--out", run_, "--force"}}) {
-    const auto refused = crane(command);
-    EXPECT_NE(refused.exit_code, 0);
-    EXPECT_THAT(refused.errors, HasSubstr("is the recording that is read"));
-  }
-  EXPECT_EQ(contents_of(run_), before);
-}
-
 TEST_F(RecordingCommands, CutsOfARunAreMergedToARecordingThatIsReplayed) {
   ASSERT_EQ(crane({"log", "cut", run_, path("a.mcap"), "--to", "1.5"}).exit_code, 0);
   ASSERT_EQ(crane({"log", "cut", run_, path("b.mcap"), "--from", "1.5"}).exit_code, 0);
@@ -146,6 +134,34 @@ TEST_F(RecordingCommands, LeaveNoPartOfAnExportThatFails) {
     EXPECT_THAT(unknown.errors, HasSubstr("the recording has no topic 'nothing'; it has crane/state"));
     EXPECT_FALSE(std::filesystem::exists(path("a.out.partial")));
   }
+}
+
+/// The commands that write a file: none overwrites the recording that it reads, also with --force.
+TEST_F(RecordingCommands, NeverOverwriteTheirRecording) {
+  const auto before = contents_of(run_);
+  for (std::vector<std::string> command : {std::vector<std::string>{"log", "export", "csv", run_, "--force"},
+                                           {"log", "export", "csv", run_, "--topic", "state", "--force"},
+                                           {"log", "export", "json", run_, "--force"},
+                                           {"log", "export", "hdf5", run_, "--force"},
+                                           {"log", "export", "matlab", run_, "--force"},
+                                           {"replay", run_, "--swap", "controller=delayed_1", "--force"},
+                                           {"review", run_}}) {
+    if (command[1] != "cut") command.emplace_back("--out");
+    command.push_back(run_);
+    SCOPED_TRACE(testing::PrintToString(command));
+    const auto refused = crane(command);
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_THAT(refused.errors, HasSubstr("is a file that the command reads"));
+    EXPECT_EQ(contents_of(run_), before);
+  }
+}
+
+TEST_F(RecordingCommands, FailWhenStandardOutputCannotBeWritten) {
+  const auto failed =
+      system_test::run_program("/bin/sh", {"-c", "exec \"$0\" log export csv \"$1\" > /dev/full",
+                                           (stack::program_directory() / "crane").string(), run_});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.errors, HasSubstr("crane: standard output: not everything could be written"));
 }
 
 /// A limit of the size of files acts like a full disk. The library cleans up when the program exits.

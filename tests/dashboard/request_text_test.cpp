@@ -56,7 +56,9 @@ TEST(RequestText, AnInvalidRequestOfAnOperatorIsRefused) {
                            R"({"kind":"mode"})",
                            R"({"kind":"mode","mode":1})",
                            R"({"kind":"mode","mode":"fast"})",
-                           R"({"kind":"arm","mode":"manual"})"})
+                           R"({"kind":"arm","mode":"manual"})",
+                           R"({"kind":"stop","kind":"arm"})",
+                           R"({"kind":"move","trolley_m":0.9,"trolley_m":0.5})"})
     EXPECT_THROW((void)operator_request_of(text), BadRequest) << text;
 }
 

@@ -60,6 +60,31 @@ TEST_F(Recorded, TheFirstSentenceNamesTheFirstCauseAndTheThirdItsConsequence) {
   EXPECT_THAT(lines[2], StartsWith("Then: BRIDGE_LATCHED"));
 }
 
+/// A recording begins after a stop, and contains a disarm before the stop that it explains.
+TEST_F(Recorded, AStopBeforeTheRecordingAndAnOrderlyEndAreNotTheFirstCause) {
+  std::vector<SamplePtr> samples;
+  const auto add = [&](double time_s, crane_SupervisorState state, crane_Cause cause) {
+    samples.push_back(observation::status_at(kZero_ns + static_cast<std::int64_t>(time_s * 1e9), state, cause,
+                                             samples.size() + 1));
+  };
+  add(0, crane_STATE_LOCKED, crane_CAUSE_OPERATOR_ESTOP);
+  add(4, crane_STATE_HOLD, crane_CAUSE_NONE);
+  add(8, crane_STATE_STOP_C1, crane_CAUSE_OPERATOR_DISARM);
+  add(12, crane_STATE_HOLD, crane_CAUSE_NONE);
+  write(samples);
+  EXPECT_THAT(sentences(review(file)).front(), HasSubstr("OPERATOR_DISARM"));
+  add(16, crane_STATE_STOP_C1, crane_CAUSE_OPERATOR_STOP);
+  write(samples);
+  EXPECT_THAT(sentences(review(file)).front(), HasSubstr("The first cause is OPERATOR_STOP at 16.00 s"));
+}
+
+TEST_F(Recorded, AStopBeforeTheRecordingIsNamedWhenNoneFollows) {
+  write({observation::status_at(kZero_ns, crane_STATE_LOCKED, crane_CAUSE_IDLE, 1)});
+  const auto lines = sentences(review(file));
+  EXPECT_THAT(lines.front(), HasSubstr("IDLE"));
+  EXPECT_THAT(lines.front(), HasSubstr("the supervisor was in LOCKED"));
+}
+
 TEST_F(Recorded, ThePageIsSelfContainedAndHasStatesFiguresAndCurves) {
   write_a_latch();
   const auto html = report::to_html(page_of(review(file)));

@@ -95,6 +95,19 @@ TEST_F(BlackBox, RecordsTheEndOfAProcessAsTheFirstCauseOfTheEndOfTheStack) {
               AllOf(HasSubstr("process_ended"), HasSubstr("tracking has ended: signal 9")));
 }
 
+TEST_F(BlackBox, RecordsTheEndOfCraneUpThatSomeoneKilled) {
+  start_a_move();
+  up.send(SIGKILL);
+  EXPECT_EQ(up.wait(15s), 128 + SIGKILL);
+  for (const auto deadline = std::chrono::steady_clock::now() + 15s; files().empty();
+       std::this_thread::sleep_for(20ms))
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  ASSERT_EQ(files().size(), 1U);
+  EXPECT_THAT(
+      review::sentences(review::review(files()[0])).front(),
+      AllOf(HasSubstr("The first cause is STACK_KILLED"), HasSubstr("crane up ended before its processes")));
+}
+
 TEST_F(BlackBox, RecordsNothingWhenAnOperatorEndsTheStack) {
   start_a_move();
   up.send(SIGINT);

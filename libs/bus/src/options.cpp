@@ -125,6 +125,9 @@ Options checked(Options options) {
   constexpr std::uint32_t kMaxDomain = 100;
   std::vector<std::string> problems;
   if (options.crane.empty()) problems.push_back("crane is empty: give the crane a name");
+  // The name is a DDS partition. A partition with these characters matches the partitions of several cranes.
+  if (options.crane.find_first_of("*?[]") != std::string::npos)
+    problems.push_back("crane = '" + options.crane + "': must not contain any of * ? [ ]");
   if (options.vendor == Vendor::memory) {
     if (!options.network)
       problems.push_back("network is not set: every memory bus of a stack shares one make_memory_network()");

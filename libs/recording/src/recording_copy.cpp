@@ -7,15 +7,6 @@
 namespace crane::recording {
 namespace {
 
-std::filesystem::path partial_of(const std::filesystem::path& file,
-                                 std::span<const std::filesystem::path> sources) {
-  std::error_code ignored;
-  for (const auto& source : sources)
-    if (std::filesystem::equivalent(source, file, ignored))
-      throw WriteError(file.string() + ": is the recording that is read; give another name");
-  return file.string() + ".partial";
-}
-
 bool same(const SchemaRecord& a, const SchemaRecord& b) {
   return a.name == b.name && a.encoding == b.encoding && a.text == b.text;
 }
@@ -37,12 +28,7 @@ std::optional<std::uint16_t> id_of(const std::map<std::uint16_t, Record>& record
 
 RecordingCopy::RecordingCopy(const std::filesystem::path& file,
                              std::span<const std::filesystem::path> sources)
-    : file_{file}, partial_{partial_of(file, sources)}, writer_{partial_} {}
-
-RecordingCopy::~RecordingCopy() {
-  std::error_code ignored;
-  if (!finished_) std::filesystem::remove(partial_, ignored);
-}
+    : file_{file, sources}, writer_{file_.partial()} {}
 
 RecordingCopy::ChannelIds RecordingCopy::add_channels(const McapReader& source) {
   ChannelIds schema_ids{{std::uint16_t{0}, std::uint16_t{0}}};
@@ -95,11 +81,7 @@ void RecordingCopy::add(const Message& message, const ChannelIds& channels) {
 
 std::uint64_t RecordingCopy::finish() {
   writer_.close();
-  std::error_code failure;
-  std::filesystem::rename(partial_, file_, failure);
-  if (failure)
-    throw WriteError(file_.string() + ": cannot rename " + partial_.string() + ": " + failure.message());
-  finished_ = true;
+  file_.publish();
   return writer_.message_count();
 }
 

@@ -4,19 +4,15 @@
 #include <map>
 #include <span>
 
+#include "crane/recording/complete_file.hpp"
 #include "crane/recording/mcap_reader.hpp"
 
 namespace crane::recording {
 
 class RecordingCopy {
  public:
-  /// Writes FILE.partial. @throws WriteError, also when `file` is one of `sources`
+  /// Writes FILE.partial. @throws WriteError, also as CompleteFile
   RecordingCopy(const std::filesystem::path& file, std::span<const std::filesystem::path> sources);
-  /// Removes FILE.partial, unless finish() was called.
-  ~RecordingCopy();
-  RecordingCopy(const RecordingCopy&) = delete;
-  RecordingCopy& operator=(const RecordingCopy&) = delete;
-
   using ChannelIds = std::map<std::uint16_t, std::uint16_t>;  ///< of a source -> of the copy
   /// Adds the schemas and channels of a source; those that the copy already has are added once.
   [[nodiscard]] ChannelIds add_channels(const McapReader& source);
@@ -29,13 +25,12 @@ class RecordingCopy {
   std::uint64_t finish();
 
  private:
-  std::filesystem::path file_, partial_;
+  CompleteFile file_;
   McapWriter writer_;
   std::map<std::uint16_t, SchemaRecord> schemas_;    ///< of the copy, by id
   std::map<std::uint16_t, ChannelRecord> channels_;  ///< of the copy, by id
   std::vector<MetadataRecord> metadata_;
   std::vector<AttachmentRecord> attachments_;
-  bool finished_ = false;
 };
 
 }  // namespace crane::recording

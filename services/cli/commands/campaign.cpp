@@ -11,6 +11,7 @@
 
 #include "campaign/report.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/number_range.hpp"
 
 namespace crane::cli {
 namespace {
@@ -130,16 +131,19 @@ void add_campaign(CLI::App& app, Action& chosen) {
       "run only this seed; with one --hazard and one --moment: print a full description of the run");
   command->add_option("--first-seed", options->first_seed,
                       "first seed; a seed selects rig, controller, move and details of the fault");
-  command->add_option("--seeds", options->seeds,
-                      "number of seeds; 246 to 270 runs each with all hazards and moments");
-  command->add_option("--jobs", options->jobs, "number of runs at the same time")->check(CLI::PositiveNumber);
+  command
+      ->add_option("--seeds", options->seeds,
+                   "number of seeds; 246 to 270 runs each with all hazards and moments")
+      ->check(positive_number());
+  command->add_option("--jobs", options->jobs, "number of runs at the same time")->check(positive_number());
   command->add_option("--record", options->record,
                       "write an MCAP recording of the run; needs one --hazard, --moment and --seed");
   command->add_option("--log", options->log,
                       "append a line per run to this file, and skip the runs that it already contains");
-  command->add_option(
-      "--fault-free", options->fault_free_h,
-      "run this number of hours of virtual time without faults instead, and report false trips");
+  command
+      ->add_option("--fault-free", options->fault_free_h,
+                   "run this number of hours of virtual time without faults instead, and report false trips")
+      ->check(positive_number());
   command->add_flag("--json", options->json, "print the table of results as JSON");
   command->add_flag("--list", options->list, "print moments and hazards");
   command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });

@@ -5,6 +5,7 @@
 
 #include "cli/commands/log.hpp"
 #include "cli/log_export.hpp"
+#include "cli/number_range.hpp"
 #include "cli/output_file.hpp"
 #include "cli/recording_argument.hpp"
 #include "cli/text_table.hpp"
@@ -121,13 +122,13 @@ void add_cut(CLI::App& log, Action& chosen, const SharedLogOptions& options) {
       add_log_command(log, chosen, options, cut, "cut", "Copy a range of time to a new recording");
   command->add_option("OUT", options->out, "recording to write")->required();
   command->add_option("--from", options->range.from_s, "first time, in s from the first sample; default: 0")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command
       ->add_option(
           "--to", options->range.until_s,
           "end, in s from the first sample; a sample at this time is not copied; default: the end of "
           "the recording")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   add_log_force(command, options);
   command->footer("Example: crane log cut run.mcap --from 12.5 --to 20 stop.mcap");
 }

@@ -10,6 +10,7 @@
 #include "cli/commands/log.hpp"
 #include "cli/output_file.hpp"
 #include "cli/text_table.hpp"
+#include "crane/recording/complete_file.hpp"
 #include "crane/recording/run_table.hpp"
 #include "recording_export/hdf5_export.hpp"
 #include "recording_export/matlab_export.hpp"
@@ -17,22 +18,25 @@
 namespace crane::cli {
 namespace {
 
-/// Calls `write` with --out or standard output. @throws std::runtime_error when the file cannot be written
+/// Calls `write` with --out or standard output.
+/// @throws std::runtime_error when the file cannot be written, or is the recording
 template <class Write>
-void to_output(const LogOptions& options, const Write& write) {
+void to_output(const LogOptions& options, const recording::McapReader& recording, const Write& write) {
   const auto& out = options.out;
   if (out.empty()) return write(std::cout);
   require_new(out, options.force);
-  std::ofstream file{out, std::ios::binary};
+  recording::CompleteFile complete{out, recording.files()};
+  std::ofstream file{complete.partial(), std::ios::binary};
   if (file) write(file);
   file.close();
   if (!file) throw std::runtime_error(out.string() + ": cannot write: " + std::strerror(errno));
+  complete.publish();
 }
 
 int export_csv(const LogOptions& options) {
   recording::McapReader recording{options.file};
   if (!options.topic.empty()) note_other_version(recording);
-  to_output(options, [&](std::ostream& out) {
+  to_output(options, recording, [&](std::ostream& out) {
     options.topic.empty() ? recording::write_csv(out, recording::run_table(recording))
                           : write_topic_csv(out, recording, options.topic);
   });
@@ -43,7 +47,7 @@ int export_csv(const LogOptions& options) {
 int export_json(const LogOptions& options) {
   recording::McapReader recording{options.file};
   note_other_version(recording);
-  to_output(options, [&](std::ostream& out) { write_json_lines(out, recording, options.topic); });
+  to_output(options, recording, [&](std::ostream& out) { write_json_lines(out, recording, options.topic); });
   print_log_problems(recording.problems());
   return runtime::kExitDone;
 }

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/number_range.hpp"
 #include "cli/player.hpp"
 #include "cli/recording_argument.hpp"
 #include "cli/sample_json.hpp"
@@ -121,11 +122,11 @@ void add_play(CLI::App& app, Action& chosen) {
   command
       ->add_option("--from,--seek", options->range.from_s,
                    "first time, in s from the first sample; default: 0")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command
       ->add_option("--to", options->range.until_s,
                    "end, in s from the first sample; default: the end of the recording")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option_function<std::vector<std::string>>(
           "--topic",

@@ -7,7 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/output_file.hpp"
 #include "commands.hpp"
+#include "crane/recording/parts.hpp"
 
 namespace crane::cli {
 namespace {
@@ -22,13 +24,14 @@ constexpr std::size_t kMostPoints = 2000;
 
 int run(const ReviewOptions& options) {
   try {
+    auto out = options.out;
+    if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("html");
+    require_other(out, recording::files_of(options.file));
     const auto found = review::review(options.file);
     if (options.json)
       std::cout << review::to_json(found, kMostPoints).dump(2) << '\n';
     else
       for (const auto& line : review::sentences(found)) std::cout << line << '\n';
-    auto out = options.out;
-    if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("html");
     report::write_html(out, review::page_of(found));
     if (!options.json) std::cout << "page: " << out.string() << '\n';
     return runtime::kExitDone;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +85,20 @@ std::string directory_name(const RunOptions& options, const experiments::Planned
   const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
   return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
          (plan.variant.empty() ? "" : "_" + plan.variant);
+}
+
+/// @throws configuration::ConfigurationError when two runs would write to one directory
+void require_own_directories(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
+  std::vector<std::string> problems;
+  std::map<std::string, std::string> scenarios;
+  for (const auto& plan : plans) {
+    const auto [other, first] = scenarios.try_emplace(directory_name(options, plan), plan.scenario.path);
+    if (!first)
+      problems.push_back(plan.scenario.path + ": its run would overwrite that of " + other->second + " in " +
+                         (std::filesystem::path{options.out} / other->first).string() +
+                         "; run them with different --out");
+  }
+  if (!problems.empty()) throw configuration::ConfigurationError(problems);
 }
 
 int run_each(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
@@ -202,6 +217,7 @@ int compare(const RunOptions& options, const std::vector<experiments::PlannedRun
 int run(const RunOptions& options) {
   runtime::install_stop_signals();
   const auto plans = plans_of(options);
+  if (!options.compare && plans.size() > 1) require_own_directories(options, plans);
   if (options.integrator != "cvode" && !options.in_process && !options.compare)
     throw configuration::ConfigurationError(
         {"--integrator = " + options.integrator + ": needs --in-process or --compare"});

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/curves.hpp"
+#include "cli/number_range.hpp"
 #include "cli/recording_argument.hpp"
 #include "cli/scope_input.hpp"
 #include "cli/scope_picture.hpp"
@@ -238,7 +239,7 @@ void add_scope(CLI::App& app, Action& chosen) {
       ->check(existing_recording())
       ->type_name("FILE");
   command->add_option("--timeout", options->timeout_s, "longest wait for the trigger in s")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   runtime::add_bus_options(*command, options->bus);
   command->footer(kFooter);
   command->callback([options, &chosen] { chosen = [options] { return scope(*options); }; });

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/number_range.hpp"
 #include "cli/snapshot.hpp"
 #include "cli/tool_bus.hpp"
 #include "commands.hpp"
@@ -45,7 +46,7 @@ void add_status(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand("status", "Show processes, safety state with the next step, and axes");
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_option("--timeout", options->timeout_s, "longest wait for all processes of the loop in s")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);
   command->footer("Example: crane status --json | jq .supervisor.state");

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/number_range.hpp"
 #include "cli/terminal.hpp"
 #include "cli/tool_bus.hpp"
 #include "cli/top_model.hpp"
@@ -108,7 +109,7 @@ void add_top(CLI::App& app, Action& chosen) {
   command
       ->add_option("--timeout", options->timeout_s,
                    "with --once or --json: longest wait in s for two reports of every process")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);
   command->footer(

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/number_range.hpp"
 #include "cli/text_table.hpp"
 #include "cli/topic_reader.hpp"
 #include "observation/arrival_statistics.hpp"
@@ -82,7 +83,7 @@ void add_topic_delay(CLI::App& topic, Action& chosen) {
       "delay", "Measure the time from the latching of the encoders to the arrival of the sample");
   add_topic_options(*command, options->topic);
   command->add_option("--window", options->window_s, "interval between two lines in s")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->footer(
       "Example: crane topic delay command --count 1000\n"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/number_range.hpp"
 #include "cli/text_table.hpp"
 #include "cli/topic_reader.hpp"
 #include "observation/arrival_statistics.hpp"
@@ -83,7 +84,7 @@ void add_topic_hz(CLI::App& topic, Action& chosen) {
   auto* command = topic.add_subcommand("hz", "Measure rate, lost samples and arrival jitter of a topic");
   add_topic_options(*command, options->topic);
   command->add_option("--window", options->window_s, "interval between two lines in s")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->footer(
       "Example: crane topic hz command --duration 10\n"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/number_range.hpp"
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
 #include "observation/arrival_statistics.hpp"
@@ -90,7 +91,7 @@ void add_topic_ls(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicLsOptions>();
   auto* command = topic.add_subcommand("ls", "List all topics with type, writers, samples and rate");
   command->add_option("--window", options->window_s, "duration of the measurement in s")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->add_flag("--json", options->json, "print one JSON array");
   runtime::add_bus_options(*command, options->bus);

@@ -1,11 +1,15 @@
 /// crane zone: no-go zones of a rig file.
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/number_range.hpp"
+#include "cli/output_file.hpp"
 #include "cli/recording_argument.hpp"
 #include "cli/taught_box.hpp"
 #include "cli/text_table.hpp"
@@ -14,6 +18,7 @@
 #include "crane/configuration/extended_file.hpp"
 #include "crane/configuration/zone_editor.hpp"
 #include "crane/fields/printable.hpp"
+#include "crane/recording/complete_file.hpp"
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/recording/run_table.hpp"
 #include "crane/runtime/process.hpp"
@@ -28,7 +33,7 @@ struct ZoneOptions {
   std::string rig = "virginia_tech_tower";
   std::optional<double> bottom_m, top_m;
   double from_s = 0, until_s = std::numeric_limits<double>::infinity();
-  bool json = false;
+  bool json = false, force = false;
 };
 
 bool is_box(const control::Zone& zone) { return zone.shape == control::ZoneShape::box; }
@@ -72,20 +77,18 @@ int list(const ZoneOptions& options) {
   return runtime::kExitDone;
 }
 
-/// Writes the new text to a temporary file that then replaces the old file, or writes the file of --out.
+/// Replaces the rig file, or the file of --out, by the new text.
 void write(const ZoneOptions& options, const std::filesystem::path& rig, const std::string& text) {
   const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
-  auto partial = target;
-  partial += ".partial";
-  std::ofstream file{partial, std::ios::binary};
+  if (!options.out.empty()) require_new(target, options.force);
+  recording::CompleteFile complete{target};
+  std::ofstream file{complete.partial(), std::ios::binary};
   file << text;
   file.close();
-  std::error_code failure;
-  if (file) std::filesystem::rename(partial, target, failure);
-  if (!file || failure) {
-    std::filesystem::remove(partial, failure);
-    throw std::runtime_error(target.string() + ": cannot be written; give another file with --out");
-  }
+  if (!file)
+    throw std::runtime_error(target.string() + ": cannot be written (" + std::strerror(errno) +
+                             "); give another file with --out");
+  complete.publish();
   std::cout << target.string() << ": written; it takes effect when the stack starts again\n";
 }
 
@@ -154,6 +157,16 @@ CLI::App* add_command(CLI::App& group, const char* name, const char* summary, co
   return command;
 }
 
+void add_output(CLI::App& command, const Options& options) {
+  command.add_option("--out", options->out, "write this file instead of the rig file");
+  command.add_flag("--force", options->force, "replace an existing file of --out");
+}
+
+CLI::Validator a_height() {
+  constexpr double kLargest_m = 1e3;
+  return number_in(-kLargest_m, kLargest_m);
+}
+
 void add_learn(CLI::App& group, const Options& options, Action& chosen) {
   auto* command =
       add_command(group, "learn", "Add a box around all positions of the hook in a recording", options);
@@ -161,15 +174,19 @@ void add_learn(CLI::App& group, const Options& options, Action& chosen) {
   command->add_option("RECORDING", options->recording, "recording (MCAP) of a drive around the obstacle")
       ->required()
       ->check(existing_recording());
-  command->add_option("--bottom", options->bottom_m,
-                      "height of the lower end in m; default: the lowest position of the hook");
-  command->add_option("--top", options->top_m,
-                      "height of the upper end in m; default: the highest position of the hook");
+  command
+      ->add_option("--bottom", options->bottom_m,
+                   "height of the lower end in m; default: the lowest position of the hook")
+      ->check(a_height());
+  command
+      ->add_option("--top", options->top_m,
+                   "height of the upper end in m; default: the highest position of the hook")
+      ->check(a_height());
   command->add_option("--from", options->from_s, "use the recording from this time on, in s")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--until", options->until_s, "use the recording up to this time, in s")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--out", options->out, "write this file instead of the rig file");
+      ->check(not_negative_number());
+  command->add_option("--to", options->until_s, "use the recording up to this time, in s")
+      ->check(positive_number());
+  add_output(*command, options);
   command->footer(
       "Example: crane record drive.mcap --duration 60, drive the hook around the obstacle with crane jog, "
       "then\n"
@@ -196,7 +213,7 @@ void add_zone(CLI::App& app, Action& chosen) {
   add_learn(*group, options, chosen);
   auto* removal = add_command(*group, "remove", "Remove a zone from the file", options);
   removal->add_option("NAME", options->name, "name of the zone")->required();
-  removal->add_option("--out", options->out, "write this file instead of the rig file");
+  add_output(*removal, options);
   removal->callback([options, &chosen] { chosen = [options] { return remove(*options); }; });
 }
 

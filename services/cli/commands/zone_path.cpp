@@ -53,9 +53,35 @@ void print_legs(const control::PathSpace& space, const plant::PerAxis& from, con
   std::cout << "reference: " << fixed(route.duration_s(), 2) << " s without shaping\n";
 }
 
+/// The supervisor accepts targets in the same range. @throws configuration::ConfigurationError
+void require_in_limits(const PathOptions& options, const configuration::Rig& rig,
+                       const control::PathSpace& space) {
+  std::vector<std::string> problems;
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
+    const auto& axis = space.axis[i];
+    for (const auto& [prefix, value] :
+         {std::pair{"--", options.to[i]}, std::pair{"--from-", options.from[i]}}) {
+      if (!value) continue;
+      const std::string given =
+          prefix + std::string{plant::kCoordinates[i].name} + " = " + std::to_string(*value);
+      if (!axis.present)
+        problems.push_back(given + ": the rig " + rig.name + " does not drive this axis");
+      else if (!(*value >= axis.low && *value <= axis.high))
+        problems.push_back(given + ": must lie in [" + std::to_string(axis.low) + ", " +
+                           std::to_string(axis.high) +
+                           "] (m or rad), the limits of the rig file less its soft_margin");
+    }
+  }
+  const auto given = [](const auto& value) { return value.has_value(); };
+  if (std::ranges::none_of(options.to, given))
+    problems.emplace_back("no target: give --trolley, --slew or --hoist");
+  if (!problems.empty()) throw configuration::ConfigurationError(problems);
+}
+
 int show_path(const PathOptions& options) {
   const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   const auto space = configuration::path_space_of(rig);
+  require_in_limits(options, rig, space);
   plant::PerAxis from = rig.start.position, to{};
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
     from[i] = options.from[i].value_or(from[i]);
