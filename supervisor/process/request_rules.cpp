@@ -214,7 +214,7 @@ std::string mode_problem(const msg::Request& request, State state) {
     case State::fault:
       return "";
     default:
-      return "the brakes are open: the mode changes only while they are closed: disarm first";
+      return "the mode does not change while the crane is arming, armed or stopping: disarm first";
   }
 }
 

@@ -20,9 +20,9 @@ struct FailureEntry {
 constexpr std::array<FailureEntry, kHomingFailures> kFailures{{
     {"NONE", ""},
     {"MARK_NOT_FOUND",
-     "the axis moved over its whole travel and did not find its mark: check switch and counts per unit"},
+     "the axis did not find its mark within the search distance: check switch and counts per unit"},
     {"MARK_STUCK", "the switch of the mark does not open when the axis backs off: check switch and wiring"},
-    {"OTHER_SWITCH", "the axis reached the limit switch of the other end: check mark, signs and wiring"},
+    {"OTHER_SWITCH", "the axis reached a limit switch that is not its mark: check mark, signs and wiring"},
     {"NO_MOTION", "the axis does not follow its reference: check encoder, brake and drive"},
     {"MARK_DISAGREES", "the two detections of the mark differ: check coupling, encoder and switch"},
 }};

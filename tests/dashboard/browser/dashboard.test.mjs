@@ -98,9 +98,9 @@ test("a move beyond the limits is refused with its reason", async () => {
   await page.click("#clear");
 });
 
-test("another operating mode is refused while the brakes are open", async () => {
+test("another operating mode is refused while the crane is armed", async () => {
   await page.selectOption("#mode", "manual");
-  await until("refused", async () => /Mode refused: the brakes are open/.test(await page.textContent("#answer")));
+  await until("refused", async () => /Mode refused: the mode does not change while the crane is arming, armed or stopping/.test(await page.textContent("#answer")));
   await until("the present mode is shown", async () => (await page.inputValue("#mode")) === "semi_automatic");
 });
 

@@ -3,8 +3,9 @@
 /// other process: invalid commands, missing commands and unexpected motion of the rig all lead to a safe
 /// output. Pure; called once per tick.
 ///
-/// All checks run at every tick, in the order of last_line_checks(). The first failed check is latched as
-/// reason: the drives get 0 V, the brakes lose their supply, and the watchdog output stops toggling.
+/// At every tick without a latch, the checks run in the order of last_line_checks(). The first failed check
+/// is latched as reason: the drives get 0 V, the brakes lose their supply, and the watchdog output stops
+/// toggling.
 /// docs/hardware.md describes each check.
 #include <array>
 #include <cstdint>
@@ -61,8 +62,9 @@ inline constexpr std::size_t kReasons = 15;
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;  ///< "encoder_jump"
 [[nodiscard]] std::string_view explanation_of(Reason reason) noexcept;
 [[nodiscard]] std::string_view remedy_for(Reason reason) noexcept;
-/// True when a counter or a brake is no longer trustworthy. Such a latch ends with a restart of the bridge,
-/// or with homing when all affected axes can be homed. A reset does not end it.
+/// True when a counter or a brake is no longer trustworthy. Such a latch ends only with a restart of the
+/// bridge. Exception: when encoder_jump or lost_counts concerns only axes with a homing mark, a reset ends
+/// the latch, and the positions of these axes stay unknown until homing.
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
 /// Parameters of one drive axis; unit is m or rad. A limit switch that closes farther inside the travel than
@@ -148,7 +150,7 @@ class LastLine {
                                const Observation& observation) noexcept;
 
   /// The latched reason. A latch that is not final ends when new commands first withhold and then grant the
-  /// watchdog permission; the supervisor does this after the operator's reset.
+  /// watchdog permission. The supervisor withholds it in the stop, and grants it after the operator's reset.
   [[nodiscard]] Reason reason() const { return reason_; }
   /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }
