@@ -76,8 +76,8 @@ class Conversation {
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
   /// Several processes read crane/request: the plant, the supervisor, recorders, dashboards. A request that
-  /// must not be repeated is sent only after the supervisor has answered a probe and a status of the planner
-  /// has arrived.
+  /// must not be repeated is sent only after the supervisor has answered a probe and, for a move or a
+  /// session of the stick, a sample of crane/reference has arrived.
   bool found() {
     constexpr std::int64_t kProbeEvery_ns = 50'000'000;
     hear_supervisor();

@@ -28,8 +28,9 @@ struct Patience {
   double reply_s = 2;  ///< longest time for the reply
 };
 
-/// Stop and emergency stop are sent as soon as one receiver is found, and are repeated until they are
-/// answered. A move is sent after the trajectory planner has been found, too.
+/// Stop and emergency stop are sent as soon as one process receives requests and one sends replies, and are
+/// repeated every 100 ms until they are answered. Any other request is sent once, after the supervisor has
+/// answered a probe; a move or a session of the stick also waits for a sample of crane/reference.
 /// @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 

@@ -20,7 +20,7 @@ namespace crane::observation {
 
 struct Note {
   enum class Kind : std::uint8_t {
-    order,    ///< a stop that an operator or the idle time requested
+    order,    ///< a stop that an operator or the idle time requested, or the end of a homing
     warning,  ///< a warning, or the orderly end of a process
     fault     ///< any other cause, a latch, an error, or the silence of a process
   };
@@ -28,7 +28,7 @@ struct Note {
   std::uint64_t tick = 0;
   Kind kind = Kind::fault;
   std::string from;  ///< process
-  std::string what;  ///< "SWING_LIMIT", "LATCH speed", code of an event
+  std::string what;  ///< "SWING_LIMIT", "LATCH_speed", code of an event
   std::string explanation, remedy;
   std::string key{};       ///< equal for a cause or latch and the event that announces it
   bool event = false;      ///< true: from crane/event
@@ -43,8 +43,9 @@ struct Fault {
   std::uint64_t number = 0;                  ///< 1, 2, ...
   std::vector<Note> notes;                   ///< first cause, then consequences
   std::uint64_t left_out = 0;                ///< number of discarded consequences
-  std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, HOLD or RUN again; 0: not yet
-  /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and for old faults.
+  std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, ARMING, HOLD or RUN again; 0: not yet
+  /// Samples of the topics that are written every tick, from 10 s before to 5 s after the first cause, by
+  /// topic; empty until then, and for old faults.
   std::map<std::size_t, std::vector<SamplePtr>> moment;
   bool moment_taken = false;
 };

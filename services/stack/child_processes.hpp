@@ -30,8 +30,8 @@ class ChildProcesses {
              int inherited = -1);
   /// The first child that has ended; nothing while all children run.
   [[nodiscard]] std::optional<Ended> ended();
-  /// Sends SIGTERM to all children in the reverse order of their start, and SIGKILL to those that still run
-  /// after `patience`. Waits for all.
+  /// Sends SIGTERM to all children in the order of their start, and SIGKILL to those that still run after
+  /// `patience`. Waits for all.
   void stop(std::chrono::milliseconds patience = std::chrono::milliseconds{3000}) noexcept;
   [[nodiscard]] std::optional<pid_t> pid_of(const std::string& name) const;
 

@@ -8,7 +8,7 @@
 namespace crane::tuning {
 
 struct Motion {
-  recording::Table table;       ///< rows of one scenario; time_s is 0 at the start of HOLD
+  recording::Table table;       ///< rows of one scenario; time_s is 0 at the start of the run, in HOLD
   std::string stopped_because;  ///< cause of a stop by supervisor or bridge; empty: complete
 };
 

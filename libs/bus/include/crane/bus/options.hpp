@@ -47,7 +47,8 @@ struct Options {
   /// none.
   std::string discovery_server{};
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
-  /// True: heartbeats every 2 ms, so that Publisher::wait_until_received() returns soon after the reception.
+  /// True: Publisher::wait_until_received() returns soon after the reception, because Cyclone DDS sends
+  /// heartbeats every 2 ms also on loop-back, instead of every 100 ms. No effect on the other vendors.
   bool confirms_soon = false;
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
   /// needs no credentials.

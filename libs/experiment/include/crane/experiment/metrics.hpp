@@ -16,7 +16,7 @@
 
 namespace crane::experiment {
 
-/// One tick of a run. Time 0 is the start of the state HOLD, as in the scenario.
+/// One tick of a run. Time 0 is the start of the run, as in the scenario.
 struct Sample {
   double time_s = 0;
   std::uint64_t tick = 0;
@@ -74,7 +74,7 @@ struct Metrics {
   std::uint64_t lost_ticks = 0;  ///< number of missing ticks between the first and the last tick
 };
 
-/// @throws std::invalid_argument when no sample is at or after first_action_s, or time does not increase
+/// @throws std::invalid_argument when the run ends before last_action_s, or time does not increase
 [[nodiscard]] Metrics evaluate(std::span<const Sample> run, const Maneuver& maneuver);
 
 /// Figures as JSON: angles in degrees (…_deg), missing figures null.

@@ -13,7 +13,7 @@
 
 namespace crane::experiment {
 
-/// A request to move. Time 0 is the start of the state HOLD (armed, brakes open).
+/// A request to move. Time 0 is the start of the run, with the crane in HOLD (armed, brakes open).
 struct Move {
   double at_s = 0;
   std::array<std::optional<double>, plant::kAxes> target;  ///< m, rad, m of cable; nothing: the axis stays

@@ -51,9 +51,10 @@ class CsvError : public std::runtime_error {
 /// Shortest text that gives `value` when read: "0.01", "1e-07", "nan".
 [[nodiscard]] std::string shortest(double value);
 
-/// @throws CsvError when columns differ in length, when a name is empty, occurs twice or contains a comma, or
-///   when writing fails
+/// @throws CsvError when columns differ in length, or when a name is empty, occurs twice or contains a comma,
+///   a quote or a line end
 void write_csv(std::ostream& out, const Table& table);
+/// @throws CsvError as above, and when writing fails
 void write_csv(const std::filesystem::path& file, const Table& table);
 
 /// Ignores blank lines and lines that begin with '#'. The first remaining line is the header.

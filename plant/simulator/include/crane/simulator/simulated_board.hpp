@@ -47,7 +47,8 @@ class SimulatedBoard final : public bridge::Board {
   std::array<double, bridge::kDrives> write(const bridge::Outputs& outputs) override;
   void make_safe() noexcept override;
   /// Integrates up to `time_ns`; no effect when `time_ns` <= now_ns().
-  /// @throws std::runtime_error when the integration fails; the state of the rig does not change then
+  /// @throws std::runtime_error when the integration fails; now_ns() is then the end of the last integrated
+  ///   span
   void advance_to(std::int64_t time_ns) override;
   [[nodiscard]] bool simulates_time() const override { return true; }
   /// Adds swing rates; a direction without swing is ignored. @return true
