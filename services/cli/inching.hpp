@@ -7,8 +7,8 @@
 
 namespace crane::cli {
 
-/// Factor of the deflection in micro-speed. The standard states no value. With 0.1, the largest speed of the
-/// trolley of the rig files decreases from 0.5 m/s to 0.05 m/s. The value is chosen, not derived.
+/// Factor of the deflection in micro-speed. The standard states no value. With 0.1, a trolley whose stick
+/// commands up to 0.5 m/s moves with at most 0.05 m/s. The value is chosen, not derived.
 inline constexpr double kMicroSpeed = 0.1;
 
 /// Step of inching in m: a fifth of the band (10 mm) in which the planner regards a move as finished. The

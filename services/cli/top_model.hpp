@@ -22,7 +22,8 @@ class TopModel {
   void add(const observation::SamplePtr& sample);
   /// @param log_now_ns  observation::log_now_ns(). @return true when new figures are available
   bool poll(std::int64_t now_ns, std::int64_t log_now_ns);
-  /// True: no topic appeared in the last window, and every visible process has reported twice.
+  /// True: crane/supervisor and crane/state have arrived, no topic appeared in the last window, and every
+  /// visible process has reported twice.
   [[nodiscard]] bool complete() const;
 
   [[nodiscard]] const observation::Traffic& traffic() const { return traffic_; }

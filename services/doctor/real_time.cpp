@@ -92,7 +92,8 @@ Findings judge_buffers(const Buffers& buffers) {
   if (buffers.lost > 0)
     findings.push_back({Grade::advice, "rt", "datagrams_lost",
                         std::to_string(buffers.lost) + " datagrams found a full receive buffer (" +
-                            std::to_string(buffers.received) + " were received) since this network exists",
+                            std::to_string(buffers.received) +
+                            " were received) since the start of the computer or container",
                         "check with `crane topic hz crane/state` whether the crane loses samples; raise "
                         "net.core.rmem_max, or end other programs of this computer"});
   if (findings.empty())

@@ -17,7 +17,8 @@ struct Permissions {
 
 struct Buffers {
   std::int64_t largest_bytes = 0;  ///< net.core.rmem_max
-  /// Datagrams since the start of the computer: lost because of a full buffer; received.
+  /// Datagrams since the start of the network namespace (of the computer, outside containers): lost because
+  /// of a full buffer; received.
   std::int64_t lost = 0, received = 0;
 };
 /// @param proc  "/proc"

@@ -24,13 +24,16 @@ class RealtimeSession {
 
   /// Sends a request and waits for the supervisor's answer. @throws SessionError when refused
   void request(const stack::OperatorRequest& wanted, const std::string& what);
-  /// Repeats the request for some seconds, because a reset needs causes that have been inactive for a second.
+  /// Repeats a refused request for up to 9 s, because a reset needs causes that have been inactive for a
+  /// second. @throws SessionError after the last refusal
   void request_with_patience(const stack::OperatorRequest& wanted, const std::string& what);
   /// Leads the crane from LOCKED to HOLD: reset, then arm. @throws SessionError
   void arm();
   /// Waits until the supervisor is in `wanted`. @throws SessionError after `patience` or in a stop state
   void wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience);
-  /// Moves, and waits until the state is HOLD again and the load is at rest. @throws SessionError
+  /// Moves, and waits until the state is HOLD again, then at most `patience` until the load is at rest. A
+  /// load that still swings then is no error.
+  /// @throws SessionError when the move is refused or does not end within `patience`
   void move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                std::chrono::milliseconds patience);
   /// Waits for `duration`.

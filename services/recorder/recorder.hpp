@@ -35,7 +35,7 @@ class Recorder {
   /// @return false when the file can no longer be written; crane/event reports the reason
   bool poll();
   /// Notes the remaining losses, writes the queued samples and closes the file. Samples that poll() has not
-  /// taken are not recorded. @return false when the file is incomplete
+  /// taken are not recorded. @return false when writing has failed; noted losses are no failure
   bool close();
 
   [[nodiscard]] const RecordingThread& thread() const { return *thread_; }

@@ -54,15 +54,16 @@ class Motion {
   /// position, so that the axis stops close to a mark when it is detected, without the tracking error.
   void creep(const std::array<double, control::kAxes>& speed, const control::Measurement& measured,
              std::uint64_t tick) noexcept;
-  /// Begins to follow a stick from the present reference. Axes that are not selected do not follow it; the
-  /// trolley compensates the slewing in every session.
+  /// Begins to follow a stick from the present reference. Axes that are not selected do not follow it. When
+  /// the slew axis is selected, the trolley compensates the slewing also without being selected.
   void jog(const std::array<bool, control::kAxes>& selected, std::uint64_t tick) noexcept;
-  /// While a stick is followed: the reference at `tick` for a deflection (share of the reference speed, -1 to
-  /// 1).
+  /// While a stick is followed: the reference at `tick` for a deflection (-1 to 1: share of the largest
+  /// speed of the session, which is at most the reference speed).
   void drive(const std::array<double, control::kAxes>& deflection, std::uint64_t tick) noexcept;
   /// Reference at `tick`; while a stick is followed, that of the last drive().
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
-  /// True when the reference has ended and the crane is at rest at it.
+  /// True when the reference has ended and the crane is at rest at it, or 20 s after the end of the
+  /// reference.
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
 
  private:

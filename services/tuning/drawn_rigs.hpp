@@ -12,9 +12,9 @@ namespace crane::tuning {
 inline constexpr std::size_t kDrawnRigs = 20;
 
 /// Draws each identified value from a normal distribution with its standard error, independently of the other
-/// values. Bounds of the model apply: friction and delay are at least 0.
-/// The control loop keeps the estimate; the swing encoders of a drawn rig therefore show a rest angle that
-/// the bridge subtracts only in part.
+/// values. Bounds of the model apply: friction and delay are at least 0; cable, load mass, gain and the
+/// values of the second mode are at least half of their estimate. The control loop keeps the estimate; the
+/// swing encoders of a drawn rig therefore show a rest angle that the bridge subtracts only in part.
 /// @param tuned  with_identified()
 [[nodiscard]] std::vector<configuration::Rig> drawn_rigs(const configuration::Rig& tuned,
                                                          const Identified& identified, std::size_t count,

@@ -210,7 +210,8 @@ constexpr const char* kFooter =
     "abs(x), min(x, ...), max(x, ...), rising(condition). Plain numbers are in SI units. Samples of one tick "
     "are\n"
     "compared with each other; fields of topics that are not written every tick keep their newest value.\n"
-    "The curves show all signals and the fields of the trigger; the CSV file has them in SI units. With "
+    "The curves show all signals and the fields of the trigger; the CSV file has them in the units of the "
+    "fields. With "
     "--normal and\n"
     "--auto, captures after the first are written to FILE_2.csv, ...; q or Ctrl-C ends.\n"
     "Exit code 1: the trigger did not occur.";

@@ -29,7 +29,7 @@ struct Latched {
 
 /// Position and rate from one encoder. The filters require samples at the nominal ticks. Therefore the input
 /// of the filters is extrapolated from a late sample to the time of its tick with the present rate, and
-/// skipped ticks are interpolated. position() is the position of the sample itself.
+/// skipped ticks are interpolated. Without filter_position, position() is the position of the sample itself.
 class Coordinate {
  public:
   /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter; 0: no filter

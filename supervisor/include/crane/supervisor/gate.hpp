@@ -29,7 +29,8 @@ struct GateMemory {
 };
 
 struct GateOutput {
-  PerAxis drive_v{};          ///< V, finite, within range and rate; 0 on absent axes
+  /// V, finite, within range and rate; 0 on absent axes; becomes 0 in one tick when its direction is blocked.
+  PerAxis drive_v{};
   Cause cause = Cause::none;  ///< none, demand_stale, demand_invalid or demand_rate
   bool clamped = false;       ///< true: range or rate was limited
   bool invalid = false;    ///< true: the demand was rejected: a value is not finite, or above kRejectionRatio

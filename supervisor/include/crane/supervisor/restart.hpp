@@ -16,7 +16,7 @@ struct RestartMemory {
 /// The position of an axis is doubtful unless it was known, the old bridge showed the axis at rest, and
 /// the new position agrees within brake_slip. The doubt ends with an accepted reset that confirms the
 /// position, or when the bridge reports the position as unknown: then the axis must be homed. Another restart
-/// does not end the doubt.
+/// does not end the doubt. Without a sample of an old bridge, no axis becomes doubtful.
 /// @param before    motion measured with the old bridge
 /// @param known     axes whose position was known with the old bridge
 /// @param position  positions of the first sample of the new bridge; null: this sample is unusable

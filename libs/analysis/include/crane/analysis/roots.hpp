@@ -20,9 +20,11 @@ struct Box {
 /// real axis are their conjugates. Multiple roots are repeated. Two roots closer than 1e-4 (1 + |s|) may be
 /// returned as one double root.
 /// @throws std::invalid_argument for f with a problem() or an empty region
+/// @throws std::domain_error when every tried box has a root on its edge
 [[nodiscard]] std::vector<Complex> roots_in(const QuasiPolynomial& f, double left, double right, double top);
 
-/// All roots with Re s >= abscissa and Im s >= 0. @throws std::invalid_argument as root_bound()
+/// All roots with Re s >= abscissa and Im s >= 0.
+/// @throws std::invalid_argument as root_bound(), std::domain_error as roots_in()
 [[nodiscard]] std::vector<Complex> roots_right_of(const QuasiPolynomial& f, double abscissa);
 
 }  // namespace crane::analysis

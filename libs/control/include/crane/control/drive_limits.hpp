@@ -22,7 +22,7 @@ enum class Mark : std::uint8_t {
 struct Homing {
   Mark mark = Mark::limit_low;
   double position = 0;        ///< position at which the switch of the mark changes, unit
-  double speed = 0;           ///< search speed, also the largest speed while the position is unknown, unit/s
+  double speed = 0;           ///< search speed, unit/s
   double approach_speed = 0;  ///< speed of the second approach, which sets the position
   /// Distance that the axis backs off after the switch has opened, unit. Also the tolerance of the position
   /// of the mark in later passes.

@@ -6,8 +6,8 @@
 /// Prediction: the nonlinear equations of the tower (plant/equations.hpp) with the nominal parameters, the
 /// compensated share of the friction, and three kinds of unknowns that the measurements correct:
 ///   d  unexplained volts of each drive: error of friction and gain
-///   e  cable angle at which an unknown horizontal force F on the load (wind) holds the load, F / (m g); e
-///      decays within kForceMemory_s
+///   e  cable angle at which an unknown horizontal force F on the load (wind) holds the load, F / (m g);
+///      decays with a time constant of 20 s
 ///   o  angle of the swing encoder at a vertical cable; constant
 /// Correction: a filter with three equal poles per drive, a Kalman filter of (phi, phi', e, o) per swing
 /// plane:

@@ -34,7 +34,8 @@
 
 namespace crane::control {
 
-/// Longest delay of a shaper in ticks.
+/// Slots for pending changes of speed: the swing period of the longest cable is at most kStickSlots - 3
+/// ticks.
 inline constexpr std::size_t kStickSlots = 4096;
 
 /// One axis; "unit" is m (trolley, hoist) or rad (slew).
@@ -137,7 +138,7 @@ Reference step(const StickLimits& limits, const std::array<double, kAxes>& wante
 [[nodiscard]] Volts feed_forward(const Design& design, const StickLimits& limits,
                                  const StickMemory& memory) noexcept;
 
-/// True when no axis moves and no change of speed is pending.
+/// True when for path.size() ticks no axis has moved and no change of speed has been pending.
 [[nodiscard]] bool at_rest(const StickMemory& memory) noexcept;
 
 }  // namespace crane::control

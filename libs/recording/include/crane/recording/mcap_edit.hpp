@@ -36,8 +36,9 @@ CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const
 /// recordings are named. Equal metadata and attachments are stored once. Adds the metadata record "merge"
 /// with the names of the files.
 /// @return number of copied messages, and the damage of all files
-/// @throws ReadError, WriteError; EditError when two recordings have different schemas of one type, different
-///   types of one topic, different attachments of one name, or different TOML attachments (rig files)
+/// @throws ReadError, WriteError; EditError when one recording is named twice, or two recordings have
+///   different schemas of one type, different types of one topic, different attachments of one name, or
+///   different TOML attachments (rig files)
 CheckReport merge(std::span<const std::filesystem::path> files, const std::filesystem::path& out);
 
 }  // namespace crane::recording

@@ -11,7 +11,7 @@ struct Part {
   std::filesystem::path file;
 };
 
-/// File of part `number` (1, 2, ...) of `recording`; the names sort like the numbers.
+/// File of part `number` (1, 2, ...) of `recording`; the names sort like the numbers up to 999999.
 [[nodiscard]] std::filesystem::path part_file(const std::filesystem::path& recording, std::uint32_t number);
 
 /// Existing parts of `recording` in the order of their numbers.

@@ -29,10 +29,11 @@ class RequestInbox {
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
 
   /// Takes up to 64 requests from the bus. Ignores requests whose source may not write crane/request. Refuses
-  /// a request when kMostWaiting requests wait already. In lockstep, answers a request for a later tick with
-  /// the reason "scheduled". In real time, a request acts at once or not at all. Otherwise a request could
-  /// start a motion after its operator has left, or after a stop. Therefore the inbox refuses a request for a
-  /// later tick, and a stop for a later tick acts at once.
+  /// a request when kMostWaiting requests wait already; a stop that acts at once has kMostStops more places.
+  /// In lockstep, answers a request for a later tick with the reason "scheduled". In real time, a request
+  /// acts at once or not at all. Otherwise a request could start a motion after its operator has left, or
+  /// after a stop. Therefore the inbox refuses a request for a later tick, and a stop for a later tick acts
+  /// at once.
   /// @return true when a request arrived
   bool receive();
   /// @param sender  participant that sent the request
