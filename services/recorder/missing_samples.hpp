@@ -1,7 +1,8 @@
 #pragma once
-/// Counts each missing sample of one topic once. DDS reports a loss before or after the gap in the ticks
-/// becomes visible, also by more than a second: a report comes at once, the next sample only when receiving
-/// goes on; or a heartbeat that reports the loss comes long after the next sample.
+/// Counts each missing sample of one topic once, although two sources show it: a report of DDS, and a gap in
+/// the ticks. The gap becomes visible with the next sample. The report can precede the gap by more than a
+/// second when the recorder has stopped receiving, and can follow it by more than a second when the heartbeat
+/// that reports the loss is late.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,8 +13,8 @@ namespace crane::recorder {
 
 class MissingSamples {
  public:
-  /// A gap and a report of the same samples wait this long for each other. Both then count; the later one of
-  /// a pair that was farther apart does not count again.
+  /// A gap and a report wait this long for each other; together they count once. After this time, the one
+  /// that has arrived counts alone, and the other one does not count when it arrives later.
   static constexpr std::int64_t kWait_ns = 1'000'000'000;
 
   struct Found {

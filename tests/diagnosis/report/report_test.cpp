@@ -194,7 +194,8 @@ TEST(ReportPage, ClaimsNoUnprovenGain) {
   Example example;
   EXPECT_THAT(page_of(example), HasSubstr("error is smaller by 67 % (95 % interval 60 % to 70 %)"));
   example.diagnosis.held_out.gain_ci95 = {-0.1, 0.7};
-  EXPECT_THAT(page_of(example), HasSubstr("error is not surely smaller: gain 67 % (95 % interval -10 %"));
+  EXPECT_THAT(page_of(example),
+              HasSubstr("error is not significantly smaller: gain 67 % (95 % interval -10 %"));
   example.diagnosis.held_out.gain = -0.03;
   example.diagnosis.held_out.gain_ci95 = {-0.07, -0.002};
   EXPECT_THAT(page_of(example), HasSubstr("error is larger by 3 %"));

@@ -27,7 +27,8 @@ std::string quoted_toml(const std::string& text) {
 
 std::string extended_rig_text(const configuration::Rig& rig, const Diagnosis& diagnosis) {
   std::ostringstream out;
-  out << "# " << rig.name << " with what measured data showed it to lack. " << diagnosis.sentence << '\n'
+  out << "# " << rig.name << ", extended by the terms that `crane diagnose` found. " << diagnosis.sentence
+      << '\n'
       << "extends = " << quoted_toml(std::filesystem::absolute(rig.path).lexically_normal().string())
       << "\nname = " << quoted_toml(rig.name + "_extended") << '\n';
   // The array of the extending file replaces that of the base: it repeats the rig's own terms.

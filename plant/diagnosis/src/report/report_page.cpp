@@ -69,7 +69,7 @@ std::string gain_sentence(const HeldOut& held_out) {
   if (low > 0) return begin + "smaller by " + percent(held_out.gain) + interval;
   if (high < 0)
     return begin + "larger by " + percent(-held_out.gain) + ": gain " + percent(held_out.gain) + interval;
-  return begin + "not surely smaller: gain " + percent(held_out.gain) + interval;
+  return begin + "not significantly smaller: gain " + percent(held_out.gain) + interval;
 }
 
 report::Section verdict_section(const Diagnosis& diagnosis) {
@@ -84,8 +84,7 @@ report::Section verdict_section(const Diagnosis& diagnosis) {
         causes_table("Within the accuracy of the rig file", diagnosis.within_accuracy));
   if (!diagnosis.calibrated.empty()) section.blocks.emplace_back(calibration_table(diagnosis.calibrated));
   if (!diagnosis.attempted.empty())
-    section.blocks.emplace_back(
-        causes_table("Explains most of it, and is not proven as a cause", diagnosis.attempted));
+    section.blocks.emplace_back(causes_table("Best explanation, not proven as a cause", diagnosis.attempted));
   return section;
 }
 
@@ -145,8 +144,10 @@ report::Section held_out_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "Held-out data", .blocks = {}};
   section.blocks.emplace_back(gain_table(diagnosis.held_out));
   section.blocks.emplace_back(report::Paragraph{
-      "The curves are whole runs in open loop, started once: small errors add up in them. The table's "
-      "first figures are from windows of a few seconds, each with a start of its own."});
+      "The curves are simulations of whole runs in open loop from one initial state; small errors "
+      "accumulate. The columns without \"whole run\" are computed in windows of about 1 s (drives) and 2 s "
+      "(swing), each "
+      "with its own initial state."});
   for (const Trace& trace : diagnosis.traces)
     section.blocks.emplace_back(overlay(trace, !diagnosis.extension.empty()));
   return section;
@@ -155,10 +156,10 @@ report::Section held_out_section(const Diagnosis& diagnosis) {
 report::Section residual_section(const Diagnosis& diagnosis, const configuration::Rig& rig,
                                  const std::vector<Run>& test) {
   report::Section section{.title = "Residual", .blocks = {}};
-  section.blocks.emplace_back(
-      report::Paragraph{"Measured minus simulated, in windows of two seconds. A cloud with a shape is "
-                        "something the model lacks; the "
-                        "extended model's should have none."});
+  section.blocks.emplace_back(report::Paragraph{
+      "Measured minus simulated, in windows of about 2 s; the free motion of a wrong initial "
+      "state is subtracted. A residual that depends on the horizontal axis shows an effect that "
+      "the model lacks. The residual of the extended model should show no dependence."});
   for (const ResidualView& view : residual_views(diagnosis, rig, test))
     for (const Abscissa& abscissa : view.against) {
       report::LinePlot plot{.title = view.column + " against " + abscissa.label,
@@ -203,9 +204,9 @@ report::Section candidates_section(const Diagnosis& diagnosis) {
   }
   section.blocks.emplace_back(std::move(table));
   section.blocks.emplace_back(report::Paragraph{
-      "Gains are decreases of minus twice the log likelihood of the training data, each block of "
-      "two seconds left out of the fit. P value alone: of the candidate's score with nothing "
-      "else in the model. Resamples: how often resampled data pick the candidate."});
+      "The gain is the decrease of the deviance: minus twice the log likelihood of the training data plus "
+      "the penalty of the parameters. The p value is that of the score test of the candidate alone, beside "
+      "the base model. Resamples: share of the resamples of the training data that vote for the candidate."});
   return section;
 }
 

@@ -42,9 +42,10 @@ void add_problems(const std::string& what, const Runs& runs, double least_s, con
       moves = moves || (fastest > kLeastRate && *high - *low > kLeastTravel);
     }
   if (!moves)
-    problems.push_back((std::ostringstream{} << called(what, runs) << ": nothing of " << rig.name
-                                             << " moves by more than " << kLeastTravel << " and faster than "
-                                             << kLeastRate << " /s (m or rad): record a motion")
+    problems.push_back((std::ostringstream{} << called(what, runs) << ": no axis or swing of " << rig.name
+                                             << " moves by more than " << kLeastTravel
+                                             << " m or rad and faster than " << kLeastRate
+                                             << " m/s or rad/s: record a motion")
                            .str());
 }
 
