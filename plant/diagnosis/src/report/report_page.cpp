@@ -146,8 +146,7 @@ report::Section held_out_section(const Diagnosis& diagnosis) {
   section.blocks.emplace_back(report::Paragraph{
       "The curves are simulations of whole runs in open loop from one initial state; small errors "
       "accumulate. The columns without \"whole run\" are computed in windows of about 1 s (drives) and 2 s "
-      "(swing), each "
-      "with its own initial state."});
+      "(swing), each with its own initial state."});
   for (const Trace& trace : diagnosis.traces)
     section.blocks.emplace_back(overlay(trace, !diagnosis.extension.empty()));
   return section;
