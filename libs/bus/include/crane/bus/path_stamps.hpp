@@ -74,8 +74,8 @@ class PathStampReader {
 
   /// Path of the file, for other processes while this object exists.
   [[nodiscard]] std::string file() const;
-  /// Appends the records since the last call. @throws Error when records were overwritten: the calls were
-  /// too rare
+  /// Appends the records since the last call. @throws Error when more than half of the ring is unread: the
+  /// calls were too rare, and the writer could overwrite records while they are read
   void take(std::vector<PathRecord>& records);
 
  private:

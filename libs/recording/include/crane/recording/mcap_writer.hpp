@@ -68,7 +68,8 @@ class McapWriter {
 
   /// Closes the current chunk and writes it to the file, for example at a fault. @throws WriteError
   void flush();
-  /// Writes index and footer. Further calls have no effect. @throws WriteError
+  /// Writes index and footer. Further calls of close() have no effect; every other writing call then throws
+  /// std::logic_error. @throws WriteError
   void close();
 
   [[nodiscard]] std::uint64_t message_count() const;

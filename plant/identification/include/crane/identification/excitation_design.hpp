@@ -34,9 +34,10 @@ struct ExcitationLimits {
 /// Coriolis terms that (2.30), (2.31) neglect.
 [[nodiscard]] double predicted_swing_rad(const control::Excitation& excitation, const CarriedLoad& load);
 
-/// The excitation (4.11), (4.14) about the middle of the travel. A is `amplitude` times the largest factor <=
-/// 1 for which the excitation stays within the limits.
-/// @throws std::invalid_argument when the limits are out of range
+/// The excitation (4.11), (4.14) about the middle of the travel. A is `amplitude`, or less: the sum of the
+/// amplitudes of both sines stays within half the travel, the sum of their speeds within the speed limit.
+/// Then A decreases in steps of 5 % until the predicted swing is within its limit.
+/// @throws std::invalid_argument when an argument is out of range
 [[nodiscard]] control::Excitation multi_sine(std::size_t axis, double amplitude,
                                              const ExcitationLimits& limits, double duration_s);
 
@@ -46,7 +47,7 @@ struct ExcitationLimits {
 /// @param stiffness_vpu  gain of the position loop, V/m or V/rad
 /// @param ramp_vps       slope of the voltage, V/s
 /// @param friction_v     sum of the friction of both directions, V
-/// @throws std::invalid_argument when the limits are out of range or the travel is too short
+/// @throws std::invalid_argument when an argument is out of range or the travel is too short
 [[nodiscard]] control::Excitation break_away_sine(std::size_t axis, const ExcitationLimits& limits,
                                                   double stiffness_vpu, double ramp_vps, double friction_v,
                                                   int repetitions);

@@ -28,7 +28,9 @@ class StepIntegrator {
   /// Advances the simulated outputs by one step. prescribe() sets the other outputs.
   /// @param at measured kinematics in the middle of the step
   void step(const MeasuredKinematics& at);
-  /// @return accelerations of the model. The outputs that are not simulated have the kinematics `at`.
+  /// @return accelerations of the model in the middle of the next step. The simulated outputs are
+  ///   extrapolated by half a step, the other outputs have the kinematics `at`, and the inner coordinates
+  ///   keep their present state
   [[nodiscard]] plant::Accelerations accelerations(const MeasuredKinematics& at);
   /// Sets the outputs that are not simulated, and the cable, to measured kinematics.
   void prescribe(const MeasuredKinematics& at);
