@@ -11,8 +11,8 @@ class TextTable {
   explicit TextTable(std::vector<std::string> header) { add(std::move(header)); }
   /// Adds a row; missing cells are empty.
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// Prints the table. Cells that begin with a digit or minus sign are aligned right. Lines have no trailing
-  /// blanks.
+  /// Prints the table. Cells that begin with a digit or minus sign are aligned right, except "-". Lines have
+  /// no trailing blanks.
   void print(std::ostream& out) const;
 
  private:

@@ -36,8 +36,8 @@ struct ValueAndSlope {
 /// Upper bound of |f''| in the disc of `radius` around s.
 [[nodiscard]] double curvature_bound(const QuasiPolynomial& f, Complex s, double radius) noexcept;
 
-/// @return R such that every root with Re s >= abscissa has |s| <= R. R is the positive root of |p_n| R^n =
-///   sum |p_i| R^i + exp(-delay abscissa) sum |q_i| R^i, i < n
+/// @return R such that every root with Re s >= abscissa has |s| <= R. R is 1, or less than 1.25 times
+///   the positive root of (|p_n| - E |q_n|) r^n = sum (|p_i| + E |q_i|) r^i, i < n, E = exp(-delay abscissa)
 /// @throws std::invalid_argument when no bound exists: f is neutral with a chain of roots right of the
 ///   abscissa
 [[nodiscard]] double root_bound(const QuasiPolynomial& f, double abscissa);

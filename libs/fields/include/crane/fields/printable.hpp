@@ -12,7 +12,7 @@ namespace crane::fields {
 /// order.
 /// @return true when the text has changed
 bool make_printable(std::span<char> text);
-/// The first `most` bytes of the text, made printable.
+/// The longest prefix of whole characters with at most `most` bytes, made printable.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = std::string_view::npos);
 /// Length in bytes of the longest prefix that has at most `most` bytes and ends with a complete character.
 [[nodiscard]] std::size_t whole_characters(std::string_view text, std::size_t most);

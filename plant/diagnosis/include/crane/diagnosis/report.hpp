@@ -35,7 +35,8 @@ class ReportError : public std::runtime_error {
 void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                     const configuration::Rig& rig, const std::vector<Run>& test);
 
-/// Writes report.json, report.html, extended.toml and next_experiment.toml.
+/// Writes report.json, report.html and extended.toml, and next_experiment.toml if the diagnosis proposes an
+/// experiment; otherwise removes the next_experiment.toml of an earlier diagnosis.
 /// @param directory must exist. @throws ReportError, report::WriteError
 void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                   const configuration::Rig& rig, const std::vector<Run>& test);
