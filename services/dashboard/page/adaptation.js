@@ -33,7 +33,7 @@ function axisOf(sample, idl, axis) {
   const { key, label } = AXES[axis];
   const times = (count, one, many) => count === 1 ? `1 ${one}` : `${count} ${many}`;
   return [element("section", { id: "adaptation-" + key, dataset: { phase } },
-    element("h3", {}, label, element("meter", { min: 0, max: 1, value: get("confidence"), title: "0: the Coulomb friction is known no better than from the rig file; 1: it is known exactly, in both directions" }),
+    element("h3", {}, label, element("meter", { min: 0, max: 1, value: get("confidence"), title: "accuracy of the Coulomb friction; 0: that of the rig file; 1: exact in both directions" }),
       element("span", { className: "hint" }, `confidence ${(100 * get("confidence")).toFixed(0)} %`)),
     element("p", { className: "activity", dataset: { tone } }, text),
     element("table", {}, element("thead", {}, element("tr", {}, ...["", "Coulomb [V]", "Break-away [V]", "In use [V]"].map((head) => element("th", {}, head)))),

@@ -23,8 +23,7 @@ struct GainSample {
 };
 using GainCurve = std::vector<GainSample>;
 
-/// The curves have `points` >= 2 equally spaced points.
-
+// `points` >= 2: number of equally spaced points of a curve
 /// Figure 3.5: gains over the cable length, 0.5 to 5 m.
 [[nodiscard]] GainCurve gains_over_cable_length(const plant::Parameters& crane, int points);
 /// Figure 3.6: gains over the mass ratio m_t, 0 to 3, at the given cable length.

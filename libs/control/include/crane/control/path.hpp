@@ -95,13 +95,13 @@ struct ClosestZone {
 };
 [[nodiscard]] ClosestZone closest_zone(const PathSpace& space, const plant::PerAxis& position) noexcept;
 
-/// Smallest clearance on the straight leg between two completed positions, m. A value below kRestGap_m is an
-/// upper bound: the first such sample ends the calculation.
+/// Smallest clearance of the samples on the straight leg between two completed positions, m. A value below
+/// kRestGap_m + 1.5 mm is an upper bound: the first such sample ends the calculation.
 [[nodiscard]] double straight_clearance_m(const PathSpace& space, const plant::PerAxis& from,
                                           const plant::PerAxis& to) noexcept;
 
 /// Largest speed of the suspension point over the ground at this clearance, m/s, at which the zone filter
-/// does not stop the crane. docs/zones.md#paths-around-zones states the formula.
+/// does not stop the crane; at least 0.03 m/s. docs/zones.md#paths-around-zones states the formula.
 [[nodiscard]] double passing_speed_mps(const PathSpace& space, double clearance_m, double cable_m) noexcept;
 
 }  // namespace crane::control

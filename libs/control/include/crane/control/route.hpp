@@ -26,8 +26,8 @@ class Route {
  public:
   Route() = default;
   /// @param start  present reference (m, rad, m of cable). An axis that the rig does not have stays there
-  /// @throws std::invalid_argument when speeds or accelerations of `space` are outside the ranges of
-  /// AxisLimits
+  /// @throws std::invalid_argument when speeds, accelerations or jerks of `space` lead to limits outside the
+  /// ranges of AxisLimits
   Route(const PathSpace& space, const plant::PerAxis& start, const std::vector<Waypoint>& points,
         const RouteStyle& style);
 
