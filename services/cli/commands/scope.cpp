@@ -211,9 +211,8 @@ constexpr const char* kFooter =
     "are\n"
     "compared with each other; fields of topics that are not written every tick keep their newest value.\n"
     "The curves show all signals and the fields of the trigger; the CSV file has them in the units of the "
-    "fields. With "
-    "--normal and\n"
-    "--auto, captures after the first are written to FILE_2.csv, ...; q or Ctrl-C ends.\n"
+    "fields.\n"
+    "With --normal and --auto, captures after the first are written to FILE_2.csv, ...; q or Ctrl-C ends.\n"
     "Exit code 1: the trigger did not occur.";
 
 }  // namespace
