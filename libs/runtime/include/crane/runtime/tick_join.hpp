@@ -16,8 +16,9 @@ namespace crane::runtime {
 
 struct JoinPolicy {
   bool in_order = true;  ///< true: lockstep; false: real time
-  /// Real time: maximum wait for the other inputs after the leader's sample. 0: the first poll() opens a
-  /// tick, and the second finishes it without its missing inputs.
+  /// Real time: wait for the other inputs after the poll() that opens the tick; a poll() that is late by half
+  /// this time extends the wait once, by half this time. 0: the first poll() opens a tick, and the second
+  /// finishes it without its missing inputs.
   std::int64_t bound_ns = 0;
   std::size_t depth = 8;       ///< ticks that an input may be ahead of the slowest input
   std::int64_t period_ns = 0;  ///< real time: period of the ticks, for the check of tick numbers; 0: no check
