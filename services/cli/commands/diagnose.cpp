@@ -88,7 +88,7 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
                 << rounded(p.value) << (p.unit == "1" ? "" : " " + p.unit) << '\n';
   for (const auto& cause : diagnosis.attempted)
     std::cout << "tried: " << cause.name << (cause.axis.empty() ? "" : " (" + cause.axis + ")")
-              << " explains most of the error and is not proven as a cause\n";
+              << " is part of the best explanation and is not proven as a cause\n";
   const auto& held_out = diagnosis.held_out;
   if (!diagnosis.extension.empty() && diagnosis.verdict != diagnosis::Verdict::unknown)
     std::cout << "held-out gain " << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
