@@ -7,6 +7,7 @@
 
 #include "crane/bus/cdr.hpp"
 #include "crane/fields/angle.hpp"
+#include "crane/recording/schema.hpp"
 #include "crane/runtime/convert.hpp"
 
 namespace crane::review {
@@ -128,7 +129,7 @@ void require_this_version(const recording::McapReader& reader, const std::filesy
   for (const auto& channel : reader.channels()) {
     if (topic_index(channel.topic) == topics::kAll.size()) continue;
     const auto* schema = reader.find_schema(channel.schema_id);
-    if (schema == nullptr || schema->text != topics::idl_text())
+    if (schema == nullptr || !recording::define_equal_types(schema->text, topics::idl_text()))
       throw recording::ReadError(
           file.string() + ": " + channel.topic +
           " has the message types of another version: review it with the `crane` of that "

@@ -1,6 +1,7 @@
 #pragma once
 /// The processes of a stack as children of one command. The kernel ends them when their parent ends.
 #include <sys/types.h>
+#include <algorithm>
 
 #include <chrono>
 #include <filesystem>
@@ -34,6 +35,9 @@ class ChildProcesses {
   /// `patience`. Waits for all.
   void stop(std::chrono::milliseconds patience = std::chrono::milliseconds{3000}) noexcept;
   [[nodiscard]] std::optional<pid_t> pid_of(const std::string& name) const;
+  [[nodiscard]] bool contains(pid_t pid) const {
+    return std::ranges::find(children_, pid, &Child::pid) != children_.end();
+  }
 
  private:
   struct Child {

@@ -96,7 +96,8 @@ void wait_until_ready(ChildProcesses& children, const std::vector<runtime::Compo
   while (!missing.empty()) {
     bus.wait(std::chrono::milliseconds{20});
     while (const auto status = statuses.take())
-      if (status->phase == crane_PHASE_READY) missing.erase(status->name);
+      if (status->phase == crane_PHASE_READY && children.contains(static_cast<pid_t>(status->pid)))
+        missing.erase(status->name);
     if (const auto ended = children.ended()) throw std::runtime_error(describe(*ended));
     if (runtime::stop_requested()) throw std::runtime_error("interrupted");
     if (runtime::monotonic_ns() < deadline_ns) continue;

@@ -48,7 +48,7 @@ void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const L
 /// @param rig  rig file of the model. @throws std::runtime_error when the program is missing
 void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions options);
 
-/// Waits until every component has reported ready on crane/node.
+/// Waits until every component has reported ready on crane/node, from a process of `children`.
 /// @throws std::runtime_error with the name of a component that ended, or did not report within `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
                       bus::Bus& bus, std::chrono::milliseconds patience);

@@ -58,6 +58,14 @@ TEST(Schema, DecodesEveryKindOfFieldOfALittleEndianPayload) {
             R"("colour":"GREEN","name":"ab","area":9223372036854775808,"ratio":0.5,"level":-2})");
 }
 
+TEST(Schema, TextsWithOtherCommentsDefineEqualTypes) {
+  EXPECT_TRUE(
+      define_equal_types("struct A { double x; // m\n};", "// A point\nstruct A {\n  double x;\n};\n"));
+  EXPECT_FALSE(define_equal_types("struct A { double x; };", "struct A { double y; };"));
+  EXPECT_FALSE(define_equal_types("struct A { double x; };", "struct A { double x; double y; };"));
+  EXPECT_FALSE(define_equal_types("struct A { double x; };", "struct A \x01"));
+}
+
 TEST(Schema, DecodesBigEndian) {
   const Payload payload{0, 0, 0, 0, 0x3F, 0xF0, 0, 0, 0, 0, 0, 0, 0xC0, 0, 0, 0, 0, 0, 0, 0, 9};
   EXPECT_EQ(Schema{kIdl}.decode("outer::inner::Point", payload).dump(), R"({"x":1.0,"y":-2.0,"id":9})");

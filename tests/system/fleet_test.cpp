@@ -181,6 +181,26 @@ TEST_F(Fleet, AFullDomainIsRefusedWithItsLimitAndTheRemedyByBothVendors) {
   EXPECT_NO_THROW(join(bus::Vendor::fastdds));
 }
 
+/// Its first samples would stop the crane.
+TEST_F(Fleet, ALoopOfTheOtherVendorIsRefusedBesideAnArmedCraneWhichContinues) {
+  ProgramRun first{crane_program(), up(crane_name(), {"--dds", "cyclone"})};
+  ASSERT_TRUE(first.wait_for("is up with", 60s)) << first.errors();
+  auto bus = operator_of(crane_name());
+  Observer observer{bus};
+  experiments::RealtimeSession session{bus, [&] { observer.take(); }};
+  session.arm();
+  ProgramRun second{crane_program(), up(crane_name(), {"--in-process", "--dds", "fastdds"})};
+  EXPECT_EQ(second.wait(60s), 1);
+  EXPECT_THAT(second.errors(), HasSubstr("another process already writes crane/"));
+  EXPECT_EQ(second.output().find("is up with"), std::string::npos);
+  observer.take();
+  for (const auto& status : observer.statuses())
+    EXPECT_TRUE(status.state != crane_STATE_STOP_C0 && status.cause != crane_CAUSE_SECOND_WRITER);
+  EXPECT_EQ(observer.statuses().back().state, crane_STATE_HOLD);
+  first.send(SIGINT);
+  EXPECT_EQ(first.wait(20s), 0);
+}
+
 TEST_F(Fleet, ARealCraneIsRefusedInOneProcessBeforeAnythingStarts) {
   const auto ended = run_program(
       crane_program(),

@@ -37,7 +37,7 @@ class Contradictions {
   void compare_schemas(const McapReader& a, const McapReader& b) {
     for (const auto& left : a.schemas())
       for (const auto& right : b.schemas())
-        if (left.name == right.name && (left.text != right.text || left.encoding != right.encoding))
+        if (left.name == right.name && !have_equal_types(left, right))
           note("type " + left.name + ": different schemas");
   }
   void compare_channels(const McapReader& a, const McapReader& b) {

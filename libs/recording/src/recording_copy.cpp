@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <optional>
-#include <system_error>
+
+#include "crane/recording/schema.hpp"
 
 namespace crane::recording {
+
+bool have_equal_types(const SchemaRecord& a, const SchemaRecord& b) {
+  if (a.encoding != b.encoding) return false;
+  return a.encoding == "omgidl" ? define_equal_types(a.text, b.text) : a.text == b.text;
+}
+
 namespace {
 
-bool same(const SchemaRecord& a, const SchemaRecord& b) {
-  return a.name == b.name && a.encoding == b.encoding && a.text == b.text;
-}
+bool same(const SchemaRecord& a, const SchemaRecord& b) { return a.name == b.name && have_equal_types(a, b); }
 
 bool same(const ChannelRecord& a, const ChannelRecord& b) {
   return a.schema_id == b.schema_id && a.topic == b.topic && a.message_encoding == b.message_encoding &&

@@ -9,6 +9,9 @@
 
 namespace crane::recording {
 
+/// True when both schemas define the same types.
+[[nodiscard]] bool have_equal_types(const SchemaRecord& a, const SchemaRecord& b);
+
 class RecordingCopy {
  public:
   /// Writes FILE.partial. @throws WriteError, also as CompleteFile

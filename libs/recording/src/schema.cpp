@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/fields/printable.hpp"
+#include "idl_tokens.hpp"
 #include "leaf_walk.hpp"
 
 namespace crane::recording {
@@ -150,6 +151,15 @@ void flatten_into(const ordered_json& value, const std::string& name, std::vecto
 }
 
 }  // namespace
+
+bool define_equal_types(std::string_view a, std::string_view b) {
+  if (a == b) return true;
+  try {
+    return std::ranges::equal(tokens_of(a), tokens_of(b), {}, &Token::text, &Token::text);
+  } catch (const SchemaError&) {
+    return false;
+  }
+}
 
 Schema::Schema(std::string_view idl_text) {
   auto types = std::make_shared<IdlTypes>();

@@ -35,7 +35,7 @@ int run_loop(const std::vector<ComponentSpec>& specs, const LoopOptions& options
   auto joining = bus_options(options.bus, std::string{kLoopProgram}, specs.front().source, new_epoch());
   joining.ledger = options.ledger.empty() ? bus::Ledger::create() : bus::Ledger::open(options.ledger);
   bus::Bus participant{std::move(joining)};
-  refuse_second_writer(participant, writes_of(specs));
+  refuse_second_writer(participant, writes_of(specs), kSoleLoopLook);
   RealtimeScheduling scheduling;
   InProcessStack stack{specs, rig, controller, [&](const ComponentSpec& spec) {
                          return participant.share(spec.source, new_epoch());

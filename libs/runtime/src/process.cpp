@@ -129,12 +129,12 @@ void refuse_other_version(bus::Bus& bus) {
   if (!others.empty()) throw bus::Error(bus::refusal(others.front(), bus.options().messages_version));
 }
 
-void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes) {
+void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes, std::chrono::milliseconds look) {
   std::vector<bus::CdrSubscriber> probes;
   for (const auto& write : writes)
     if (write.topic->every_tick) probes.push_back(bus.cdr_subscriber(*write.topic));
   if (probes.empty()) return;
-  const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{kSoleWriterLook}.count();
+  const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{look}.count();
   while (monotonic_ns() < end_ns && !stop_requested()) {
     bus.wait(std::chrono::milliseconds{10});
     refuse_other_version(bus);

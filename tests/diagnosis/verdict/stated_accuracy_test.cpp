@@ -99,6 +99,20 @@ TEST(StatedAccuracy, KeepsTheValueOfACauseApartFromErrorsOfOtherQuantities) {
   EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.3 * strange::Gantry{}.cable_m, 0.02);
 }
 
+/// The data show the ratio of the load mass to the mass of the trolley, which is lighter than in the rig
+/// file, within the accuracy.
+TEST(StatedAccuracy, OfTheTrolleyMassWidensTheIntervalOfTheLoadMass) {
+  strange::Gantry gantry;
+  gantry.inertia_kg *= 0.985;
+  gantry.load_kg *= 1.3;
+  const Diagnosis found = diagnosed(gantry, 0);
+  ASSERT_EQ(found.causes.size(), 1U) << found.sentence;
+  EXPECT_EQ(found.causes[0].name, "payload_mass");
+  const auto& delta = found.causes[0].parameters.at(0);
+  EXPECT_NEAR(delta.value, gantry.load_kg - strange::Gantry{}.load_kg, 1.96 * delta.std_dev);
+  EXPECT_LT(delta.std_dev, 0.02 * gantry.load_kg);
+}
+
 /// The accuracy of a Coulomb friction of 0 V is 0 V: this quantity is not fitted, the others are.
 TEST(StatedAccuracy, IsUsedForADriveWithViscousFrictionOnly) {
   constexpr double kViscous_vspm = 0.1;

@@ -52,7 +52,7 @@ std::vector<MatrixXd> responses_of_known_forces(const Pieces& drive) {
 
 /// The wave of one period, fitted together with the known forces: power is the decrease of the loss beyond
 /// that by the known forces alone.
-Wave wave_of(const Pieces& drive, const std::vector<MatrixXd>& known, double per_length) {
+Wave wave_of(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of, double per_length) {
   const Index of_known = known[0].cols();
   NormalEquations all{of_known + kOfWave};
   for (std::size_t i = 0; i < drive.all.size(); ++i) {
@@ -61,7 +61,9 @@ Wave wave_of(const Pieces& drive, const std::vector<MatrixXd>& known, double per
     for (std::size_t k = 0; k < piece.rows; ++k) {
       const double middle = 0.5 * (piece.position[k] + piece.position[std::min(k + 1, piece.rows - 1)]);
       const double turn = 2 * std::numbers::pi * per_length * middle;
-      waves.row(static_cast<Index>(k)) << std::cos(turn), std::sin(turn);
+      const double speed = (*drive.runs)[piece.run].motion[drive.output].rate[piece.first + k];
+      const double unit = of == WaveOf::friction ? std::copysign(1.0, speed) : 1.0;
+      waves.row(static_cast<Index>(k)) << unit * std::cos(turn), unit * std::sin(turn);
     }
     MatrixXd both(waves.rows(), of_known + kOfWave);
     both << known[i], response_to(drive, piece, std::move(waves));
@@ -73,11 +75,12 @@ Wave wave_of(const Pieces& drive, const std::vector<MatrixXd>& known, double per
 }
 
 /// The strongest wave between the neighbours of `peak`.
-Wave refined(const Pieces& drive, const std::vector<MatrixXd>& known, const Wave& peak, double spacing) {
+Wave refined(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of, const Wave& peak,
+             double spacing) {
   std::vector<Wave> around(2 * kRefinement - 1);
   parallel_for(around.size(), [&](std::size_t i) {
     const double lines = (static_cast<double>(i) + 1) / kRefinement - 1;
-    around[i] = wave_of(drive, known, peak.per_length + lines * spacing);
+    around[i] = wave_of(drive, known, of, peak.per_length + lines * spacing);
   });
   return *std::max_element(around.begin(), around.end(),
                            [](const Wave& a, const Wave& b) { return a.power < b.power; });
@@ -85,14 +88,14 @@ Wave refined(const Pieces& drive, const std::vector<MatrixXd>& known, const Wave
 
 }  // namespace
 
-std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count) {
+std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count, WaveOf of) {
   const double travel = travel_of(*drive.runs, drive.output).width();
   if (drive.all.empty() || !(travel > 0)) return {};
   const double spacing = kLineSpacing / travel;
   const std::vector<MatrixXd> known = responses_of_known_forces(drive);
   std::vector<Wave> lines(kLines);
   parallel_for(kLines, [&](std::size_t line) {
-    if (line + 1 >= kFirstLine) lines[line] = wave_of(drive, known, spacing * static_cast<double>(line));
+    if (line + 1 >= kFirstLine) lines[line] = wave_of(drive, known, of, spacing * static_cast<double>(line));
   });
   std::vector<std::size_t> peaks;
   for (std::size_t line = kFirstLine; line + 1 < kLines; ++line)
@@ -103,7 +106,7 @@ std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count
   std::vector<PositionWave> waves;
   for (std::size_t i = 0; i < std::min(count, peaks.size()); ++i) {
     // a sin(x + psi) = a sin(psi) cos(x) + a cos(psi) sin(x)
-    const Wave wave = refined(drive, known, lines[peaks[i]], spacing);
+    const Wave wave = refined(drive, known, of, lines[peaks[i]], spacing);
     waves.push_back(
         {1 / wave.per_length, wave.amplitude.norm(), std::atan2(wave.amplitude[0], wave.amplitude[1])});
   }

@@ -6,13 +6,18 @@
 
 namespace crane::diagnosis {
 
-/// amplitude * sin(2 pi position / period + phase_rad), in m/s2 or rad/s2.
+/// A force along the axis, or a friction, which has the direction of the motion.
+enum class WaveOf { force, friction };
+
+/// amplitude * sin(2 pi position / period + phase_rad), in m/s2 or rad/s2, with the sign of the speed for a
+/// friction.
 struct PositionWave {
   double period = 0, amplitude = 0, phase_rad = 0;
 };
 
 /// Peaks of the spectrum, strongest first.
 /// @param drive pieces of a drive
-[[nodiscard]] std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count);
+[[nodiscard]] std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count,
+                                                        WaveOf of = WaveOf::force);
 
 }  // namespace crane::diagnosis

@@ -194,12 +194,13 @@ class Builder {
       for (int place = 0; place < 4 && share * travel > wavelength.low; ++place)
         shapes.push_back({share * travel, middle + 0.25 * place * share * travel});
     if (shapes.empty()) return;
-    add_force(GoesWith::position,
-              shaped("position_dependent_friction", axis,
-                     free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
-                     {wavelength,
-                      free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
-                     shapes));
+    Candidate spots = shaped(
+        "position_dependent_friction", axis,
+        free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
+        {wavelength, free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
+        shapes);
+    spots.friction_waves = true;
+    add_force(GoesWith::position, std::move(spots));
   }
 
   void add_ripple(const std::string& axis, Output output) {

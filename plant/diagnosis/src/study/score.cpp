@@ -2,12 +2,14 @@
 #include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <span>
 
 #include "force/position_spectrum.hpp"
 #include "parallel.hpp"
 #include "replay/standstill.hpp"
+#include "replay/travel.hpp"
 #include "study/blocks.hpp"
 #include "study/design.hpp"
 
@@ -127,21 +129,36 @@ Score best_shape(const Candidate& candidate, std::span<const Score> shapes) {
   return best;
 }
 
+/// The friction retards the motion: sin(2 pi p / w + phi) = -cos(2 pi (p - p0) / w).
+/// @param near  of the tight spots, the one nearest to this position is p0
+Shape tight_spots_of(const Candidate& candidate, const PositionWave& wave, double near) {
+  const double turns = -(wave.phase_rad + std::numbers::pi / 2) / (2 * std::numbers::pi);
+  const double tight_at = near + std::remainder(turns * wave.period - near, wave.period);
+  const FreeParameter& amplitude = candidate.parameters[0];
+  return {{candidate.setting({amplitude.null + amplitude.step, wave.period, tight_at})}, {amplitude.step}};
+}
+
 }  // namespace
 
 std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& effects) const {
-  if (!candidate.waves) return candidate.shapes;
+  std::vector<Shape> shapes = candidate.shapes;
+  if (!candidate.waves && !candidate.friction_waves) return shapes;
   const Output axis = candidate.drive_output();
   const double gain =
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   const Replays replays = replays_of(train_.runs, with(effects));
-  std::vector<Shape> shapes;
+  const Pieces pieces = pieces_of(train_.runs, replays, axis);
+  const WaveOf of = candidate.waves ? WaveOf::force : WaveOf::friction;
+  const FreeParameter& length = candidate.parameters[candidate.waves ? 2 : 1];
   // An axis at rest has waves of any period within a very short travel; the bounds of the term exclude them.
-  const FreeParameter& period = candidate.parameters[2];
-  for (const PositionWave& wave : strongest_waves(pieces_of(train_.runs, replays, axis), kWaves))
-    if (wave.period >= period.low && wave.period <= period.high)
+  for (const PositionWave& wave : strongest_waves(pieces, kWaves, of)) {
+    if (wave.period < length.low || wave.period > length.high) continue;
+    if (candidate.waves)
       shapes.push_back(
           {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
+    else
+      shapes.push_back(tight_spots_of(candidate, wave, travel_of(train_.runs, axis).middle()));
+  }
   return shapes;
 }
 

@@ -194,6 +194,8 @@ class Study {
   struct HeldError;
   /// Errors of the zeros of the swing sensors. Appends an effect for each zero that no effect describes.
   [[nodiscard]] std::vector<HeldError> zero_errors(Effects& effects) const;
+  /// Errors of the masses of the drives, if the load mass is a value of the effects.
+  [[nodiscard]] std::vector<HeldError> mass_errors(const Effects& effects) const;
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
   void fit_inaccuracies(Fitted& fitted);
   /// Sets covariance and penalty of a fit. @param along slopes, of the effects first

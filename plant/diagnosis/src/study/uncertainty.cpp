@@ -95,6 +95,16 @@ std::vector<Study::HeldError> Study::zero_errors(Effects& effects) const {
   return errors;
 }
 
+/// An error of the masses of the drives changes the estimate of the load mass by the same share. The rig file
+/// states all masses with the same accuracy.
+std::vector<Study::HeldError> Study::mass_errors(const Effects& effects) const {
+  const auto bounded = std::ranges::find(inaccurate_, "payload_mass", &Candidate::cause);
+  const auto payload = std::ranges::find_if(
+      effects, [](const Effect& e) { return e.candidate->cause == "payload_mass" && e.candidate->drive; });
+  if (bounded == inaccurate_.end() || payload == effects.end()) return {};
+  return {{values_of({effects.begin(), payload}), std::sqrt(variance_of_bounds(bounded->parameters[0]))}};
+}
+
 Uncertainty Study::uncertainty_of(const Fitted& fitted) const {
   Uncertainty result;
   const Effects beside = visible_inaccuracies_beside(fitted.effects);
@@ -102,6 +112,7 @@ Uncertainty Study::uncertainty_of(const Fitted& fitted) const {
   result.effects.insert(result.effects.end(), beside.begin(), beside.end());
   Effects all = result.effects;
   std::vector<HeldError> held = zero_errors(all);
+  for (const HeldError& error : mass_errors(fitted.effects)) held.push_back(error);
   const Index own_values = values_of(fitted.effects), values = values_of(result.effects);
   Determined free;
   std::vector<double> prior(static_cast<std::size_t>(own_values), 0.0);

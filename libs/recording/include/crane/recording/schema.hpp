@@ -43,6 +43,10 @@ struct LeafType {
   std::vector<std::string> enumerators;  ///< by number; empty for other kinds
 };
 
+/// True when two IDL texts define the same types: they differ only in comments and white space, or not at
+/// all.
+[[nodiscard]] bool define_equal_types(std::string_view a, std::string_view b);
+
 class Schema {
  public:
   /// @throws SchemaError

@@ -45,6 +45,9 @@ struct Candidate {
   /// A wave over position. Its loss has many minima in the phase: its shapes are the strongest waves of the
   /// unexplained force.
   bool waves = false;
+  /// A friction that is a wave over position: its shapes also contain the strongest waves of the unexplained
+  /// friction.
+  bool friction_waves = false;
   /// Values from which a fit may begin, beside the shapes. For inner coordinates that oscillate freely in
   /// each window, the gain is visible only after a fit of the starts. All values are within the bounds of
   /// `parameters`.
