@@ -103,8 +103,8 @@ Finding runs_twice(const std::string& program, const std::vector<int>& pids, con
   std::string all;
   for (const int pid : pids) all.append(all.empty() ? "" : " and ").append(std::to_string(pid));
   return {Grade::problem, "net", "process_twice",
-          program + " runs twice for crane '" + crane + "' in domain " + std::to_string(domain) +
-              ": processes " + all,
+          program + " runs " + (pids.size() == 2 ? "twice" : std::to_string(pids.size()) + " times") +
+              " for crane '" + crane + "' in domain " + std::to_string(domain) + ": processes " + all,
           "end the process of the earlier stack with `kill PID`"};
 }
 

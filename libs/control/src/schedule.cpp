@@ -22,6 +22,7 @@ Measurement bounded(const Measurement& measured) noexcept {
   Measurement result = measured;
   for (auto& position : result.position) position = bounded(position);
   for (auto& speed : result.speed) speed = bounded(speed);
+  for (auto& volts : result.applied_v) volts = bounded(volts);
   for (double* swing : {&result.swing_radial_rad, &result.swing_radial_radps, &result.swing_tangential_rad,
                         &result.swing_tangential_radps})
     *swing = bounded(*swing);

@@ -78,7 +78,7 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
     table.print(std::cout);
   }
   for (const auto& inaccuracy : diagnosis.within_accuracy)
-    std::cout << "within the accuracy of the rig file: " << inaccuracy.name
+    std::cout << "significant, but within the accuracy of the rig file: " << inaccuracy.name
               << (inaccuracy.axis.empty() ? "" : " (" + inaccuracy.axis + ")") << ", "
               << values_of(inaccuracy.parameters) << '\n';
   for (const auto& quantity : diagnosis.calibrated)
@@ -91,7 +91,9 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
               << " is part of the best explanation and is not proven as a cause\n";
   const auto& held_out = diagnosis.held_out;
   if (!diagnosis.extension.empty() && diagnosis.verdict != diagnosis::Verdict::unknown)
-    std::cout << "held-out gain " << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
+    std::cout << (diagnosis.causes.empty() ? "held-out gain by the calibration within the accuracy "
+                                           : "held-out gain ")
+              << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
               << rounded(held_out.gain_ci95[1]) << "] (95 %)\n";
   if (diagnosis.next_experiment)
     std::cout << "next experiment: " << diagnosis.next_experiment->description << "\n  crane run "

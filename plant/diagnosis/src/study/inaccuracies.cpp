@@ -4,13 +4,34 @@
 #include <array>
 #include <string_view>
 
+#include "study/candidate_shapes.hpp"
 #include "study/known_friction.hpp"
 
 namespace crane::diagnosis {
+namespace {
+
+/// The load mass is free. The data of two drives also show the ratio of the inertias of both drives.
+bool show_jib_inertia(const std::vector<Candidate>& candidates) {
+  const auto has = [&](std::string_view cause, std::string_view axis) {
+    return std::ranges::any_of(candidates,
+                               [&](const Candidate& c) { return c.cause == cause && c.axis == axis; });
+  };
+  return has("payload_mass", "") && has("motor_gain", "trolley") && has("motor_gain", "slew");
+}
+
+/// Never a cause: with the load mass and the mass of the trolley, it determines the same ratios.
+Candidate jib_inertia() {
+  CandidateList list;
+  list.add(amount("jib_inertia", "", "factor", 0.5, 2, 0.01), Changes::both, InRigFile::yes);
+  return list.take().front();
+}
+
+}  // namespace
 
 std::vector<double> largest_inaccuracy(const std::string& cause, const std::string& axis,
                                        const configuration::Rig& rig, const Accuracy& accuracy) {
-  if (cause == "motor_gain" || cause == "position_scale" || cause == "swing_scale") return {accuracy.values};
+  if (cause == "motor_gain" || cause == "position_scale" || cause == "swing_scale" || cause == "jib_inertia")
+    return {accuracy.values};
   if (cause == "cable_length") return {accuracy.values * rig.start.position[plant::kHoist]};
   if (cause == "payload_mass") return {accuracy.values * rig.plant.load_mass_kg};
   const double time_s = accuracy.times_periods * rig.period_s;
@@ -25,11 +46,12 @@ std::vector<double> largest_inaccuracy(const std::string& cause, const std::stri
   return {};
 }
 
-std::vector<Candidate> inaccuracies_of(const std::vector<Candidate>& candidates,
-                                       const configuration::Rig& rig, const Accuracy& accuracy) {
-  constexpr std::array<std::string_view, 7> kCauses{
+std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates, const configuration::Rig& rig,
+                                       const Accuracy& accuracy) {
+  if (show_jib_inertia(candidates)) candidates.push_back(jib_inertia());
+  constexpr std::array<std::string_view, 8> kCauses{
       "motor_gain",    "coulomb_friction", "viscous_friction", "direction_asymmetry",
-      "command_delay", "cable_length",     "payload_mass"};
+      "command_delay", "cable_length",     "payload_mass",     "jib_inertia"};
   std::vector<Candidate> all;
   for (const Candidate& candidate : candidates) {
     if (std::ranges::find(kCauses, candidate.cause) == kCauses.end()) continue;

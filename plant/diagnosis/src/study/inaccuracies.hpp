@@ -18,9 +18,10 @@ namespace crane::diagnosis {
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 
 /// Candidates bounded by the accuracy of the rig file: gain, friction by direction and delay of each drive,
-/// length of the cable, mass of the load. Scales, lags and the delay of the swing are not free; the verdict
-/// compares them with their accuracy (verdict/stated_accuracy.hpp).
-[[nodiscard]] std::vector<Candidate> inaccuracies_of(const std::vector<Candidate>& candidates,
+/// length of the cable, mass of the load, and, if both drives of a tower are commanded, inertia of the jib.
+/// Scales, lags and the delay of the swing are not free; the verdict compares them with their accuracy
+/// (verdict/stated_accuracy.hpp).
+[[nodiscard]] std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates,
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 
 }  // namespace crane::diagnosis

@@ -26,10 +26,14 @@ class LoadBuilder {
              InRigFile::yes);
     all_.add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), Changes::load);
     all_.add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), Changes::load);
-    if (data_.trolley || data_.slew || (data_.radial && data_.tangential))
-      all_.add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
+    // On a gantry only the force along the track is visible.
+    const double step_n = 0.005 * m * g;
+    if (data_.slew || data_.tangential)
+      all_.add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, step_n),
                       free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
                Changes::both);
+    else if (data_.trolley)
+      all_.add(amount("steady_wind", "", "force_n", -2 * m, 2 * m, step_n), Changes::both);
     add_pivot_friction();
     if (data_.trolley) all_.add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), Changes::both);
     add_structures();

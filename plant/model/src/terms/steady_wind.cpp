@@ -31,7 +31,7 @@ TermKind steady_wind() {
           "a steady wind exerts a constant force on the load, in a fixed direction relative to the ground",
       .acts_on = ActsOn::load,
       .axes = {""},
-      .parameters = {{"force_n", "N", 0, 0, 1000, "F_w, force"},
+      .parameters = {{"force_n", "N", 0, -1000, 1000, "F_w, force; negative: against the direction"},
                      {"direction_rad", "rad", 0, -7, 7,
                       "a, direction of the force; 0: along the jib at gamma = 0"}},
       .example = {"steady_wind", "", {{"force_n", 0.3}, {"direction_rad", 1}}},

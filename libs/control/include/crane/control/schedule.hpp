@@ -18,7 +18,7 @@ struct Schedule {
 
 [[nodiscard]] Schedule schedule(const Design& design, const Measurement& measured) noexcept;
 
-/// Limits every value except applied_v to +-1e6, so that no finite input can overflow. NaN stays NaN.
+/// Limits every value to +-1e6, so that no finite input can overflow. NaN stays NaN.
 [[nodiscard]] Measurement bounded(const Measurement& measured) noexcept;
 [[nodiscard]] Reference bounded(const Reference& reference) noexcept;
 
