@@ -48,11 +48,13 @@ TEST(Options, ADiscoveryServerIsUsedByFastDdsOnlyAndInsteadOfPeers) {
 }
 
 /// A DDS partition with these characters matches the names of several cranes.
-TEST(Options, ANameThatMatchesSeveralCranesIsRefusedByBothVendors) {
-  for (const Vendor vendor : {Vendor::cyclone, Vendor::fastdds})
+TEST(Options, ANameThatMatchesSeveralCranesIsRefusedForAnOperatorAndThoseWhoMoveACrane) {
+  for (const crane_Source source : {crane_SOURCE_OPERATOR, crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANT})
     for (const char* name : {"*", "north*", "c?ane", "[ab]"})
-      EXPECT_THAT(refusal({.vendor = vendor, .domain = 40, .crane = name}),
+      EXPECT_THAT(refusal({.domain = 40, .crane = name, .source = source}),
                   HasSubstr("crane = '" + std::string{name} + "': must not contain any of * ? [ ]"));
+  EXPECT_EQ(refusal({.vendor = Vendor::fastdds, .domain = 40, .crane = "*", .source = crane_SOURCE_MONITOR}),
+            "accepted");
 }
 
 TEST(Options, AllProblemsAreReportedAtOnce) {

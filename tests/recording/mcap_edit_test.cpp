@@ -132,7 +132,7 @@ TEST_F(Edit, MessagesOfEqualTimeKeepTheOrderOfTheFilesAndTheirOwnOrder) {
 
 TEST_F(Edit, RefusesContradictionsAndNamesAllOfThem) {
   const std::vector<std::filesystem::path> files{whole_, directory_ / "other.mcap"};
-  write_other(files[1], "module crane { };", "crane/note", "period_s = 0.02\n");
+  write_other(files[1], "module other {};", "crane/note", "period_s = 0.02\n");
   const auto reason = reason_of([&] { (void)merge(files, out_); });
   EXPECT_THAT(reason, HasSubstr("type crane::CraneState: different schemas"));
   EXPECT_THAT(reason, HasSubstr("topic crane/note: different types or encodings"));
