@@ -80,6 +80,18 @@ TEST_F(Start, AnUnknownUnitIsRefusedWithTheRightOne) {
   EXPECT_THAT(move.errors, AllOf(HasSubstr("'grad'"), HasSubstr("rad (default), deg")));
 }
 
+TEST_F(Start, OptionsOfARecordingOrADashboardThatIsNotStartedAreRefused) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--record-quota", "1GB"},
+                                               {"--record-split-every", "1s"},
+                                               {"--dashboard-port", "8000"}}) {
+    std::vector<std::string> command{"up"};
+    command.insert(command.end(), more.begin(), more.end());
+    const auto ended = crane(command);
+    EXPECT_EQ(ended.exit_code, kBadInput);
+    EXPECT_THAT(ended.errors, AllOf(HasSubstr(more[0]), HasSubstr("requires"))) << more[0];
+  }
+}
+
 TEST_F(Start, AScenarioThatLeavesTheJibIsRefusedBeforeAnythingStarts) {
   const auto scenario =
       file("off.toml", "description = \"too far\"\n[[move]]\nat_s = 0.5\ntrolley_position_m = 2.0\n");

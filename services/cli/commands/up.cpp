@@ -235,6 +235,10 @@ void add_up(CLI::App& app, Action& chosen) {
       ->add_option("--dashboard-runs", options->dashboard_runs,
                    "directory of recordings that the dashboard lists; default: the directory of --black-box")
       ->check(CLI::ExistingDirectory);
+  for (const char* option : {"--record-split-size", "--record-split-every", "--record-quota"})
+    command->get_option(option)->needs("--record");
+  for (const char* option : {"--dashboard-port", "--dashboard-runs"})
+    command->get_option(option)->needs("--dashboard");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: DDS implementation of one process (repeatable)");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")
