@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string refusal(const Options& options) {
   try {
@@ -53,8 +54,8 @@ TEST(Options, ANameThatMatchesSeveralCranesIsRefusedForAnOperatorAndThoseWhoMove
     for (const char* name : {"*", "north*", "c?ane", "[ab]"})
       EXPECT_THAT(refusal({.domain = 40, .crane = name, .source = source}),
                   HasSubstr("crane = '" + std::string{name} + "': must not contain any of * ? [ ]"));
-  EXPECT_EQ(refusal({.vendor = Vendor::fastdds, .domain = 40, .crane = "*", .source = crane_SOURCE_MONITOR}),
-            "accepted");
+  EXPECT_THAT(refusal({.domain = 101, .crane = "*", .source = crane_SOURCE_MONITOR}),
+              AllOf(HasSubstr("domain = 101"), Not(HasSubstr("must not contain"))));
 }
 
 TEST(Options, AllProblemsAreReportedAtOnce) {
