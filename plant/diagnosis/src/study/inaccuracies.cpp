@@ -19,13 +19,6 @@ bool show_jib_inertia(const std::vector<Candidate>& candidates) {
   return has("payload_mass", "") && has("motor_gain", "trolley") && has("motor_gain", "slew");
 }
 
-/// The data show the ratio of this mass or inertia to another one, which the rig file states with the same
-/// accuracy.
-constexpr double kMassesOfARatio = 2;
-bool is_ratio_of_masses(const Candidate& candidate) {
-  return candidate.cause == "payload_mass" || candidate.cause == "jib_inertia";
-}
-
 /// Never a cause: with the load mass and the mass of the trolley, it determines the same ratios.
 Candidate jib_inertia() {
   CandidateList list;
@@ -62,9 +55,7 @@ std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates, const 
   std::vector<Candidate> all;
   for (const Candidate& candidate : candidates) {
     if (std::ranges::find(kCauses, candidate.cause) == kCauses.end()) continue;
-    std::vector<double> limits = largest_inaccuracy(candidate.cause, candidate.axis, rig, accuracy);
-    if (is_ratio_of_masses(candidate))
-      for (double& limit : limits) limit *= kMassesOfARatio;
+    const std::vector<double> limits = largest_inaccuracy(candidate.cause, candidate.axis, rig, accuracy);
     if (std::ranges::none_of(limits, [](double limit) { return limit > 0; })) continue;
     Candidate& bounded = all.emplace_back(candidate);
     for (std::size_t i = 0; i < limits.size(); ++i) {

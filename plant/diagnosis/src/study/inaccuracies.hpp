@@ -21,7 +21,6 @@ namespace crane::diagnosis {
 /// length of the cable, mass of the load, and, if both drives of a tower are commanded, inertia of the jib.
 /// Scales, lags and the delay of the swing are not free; the verdict compares them with their accuracy
 /// (verdict/stated_accuracy.hpp).
-/// The data show only ratios of masses: the bounds of load mass and jib inertia are twice their accuracy.
 [[nodiscard]] std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates,
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 

@@ -102,8 +102,7 @@ std::vector<Study::HeldError> Study::mass_errors(const Effects& effects) const {
   const auto payload = std::ranges::find_if(
       effects, [](const Effect& e) { return e.candidate->cause == "payload_mass" && e.candidate->drive; });
   if (bounded == inaccurate_.end() || payload == effects.end()) return {};
-  const double of_both_masses = std::sqrt(variance_of_bounds(bounded->parameters[0]));  // (inaccuracies.hpp)
-  return {{values_of({effects.begin(), payload}), 0.5 * of_both_masses}};
+  return {{values_of({effects.begin(), payload}), std::sqrt(variance_of_bounds(bounded->parameters[0]))}};
 }
 
 Uncertainty Study::uncertainty_of(const Fitted& fitted) const {
