@@ -111,6 +111,8 @@ ApiAnswer Api::get(const ApiRequest& request) {
   if (path == "/api/idl") return {.media_type = "text/plain", .body = std::string{topics::idl_text()}};
   if (path == "/api/history") return history(query);
   if (auto answer = runs_.get(path)) return *std::move(answer);
+  if (path == "/api/request" || path.starts_with("/api/operator/"))
+    return problem_answer(405, "POST is expected");
   return problem_answer(404, "this path does not exist; docs/dashboard.md lists the paths");
 }
 

@@ -29,6 +29,11 @@ TEST_F(ServerTest, NoPathLeadsOutOfThePage) {
     EXPECT_EQ(get(path).result_int(), 404U) << path;
 }
 
+TEST_F(ServerTest, APathOfRequestsAnswersAGetWithTheMethodThatItExpects) {
+  for (const char* path : {"/api/request", "/api/operator/take"})
+    EXPECT_EQ(get(path).result_int(), 405U) << path;
+}
+
 TEST_F(ServerTest, OneClientOperatesAndEveryClientMayStop) {
   EXPECT_EQ(post("/api/request", {{"kind", "reset"}}).result_int(), 409U);
   const auto seat =

@@ -42,20 +42,20 @@ PositionWave strongest_of(WaveOf of, double command_v, double amplitude_v, doubl
   return {waves[0].period, waves[0].amplitude / gain, waves[0].phase_rad};
 }
 
-TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
-  constexpr double kAmplitude_v = 0.2, kPeriod_m = 0.04, kPhase = 1.1;
-  const auto found = strongest_of(WaveOf::force, 0.15, kAmplitude_v, kPeriod_m, kPhase);
-  EXPECT_NEAR(found.period, kPeriod_m, 0.02 * kPeriod_m);
-  EXPECT_NEAR(found.amplitude, kAmplitude_v, 0.4 * kAmplitude_v);
+void expect_found(WaveOf of, double command_v, double amplitude_v, double period_m) {
+  constexpr double kPhase = 1.1;
+  const auto found = strongest_of(of, command_v, amplitude_v, period_m, kPhase);
+  EXPECT_NEAR(found.period, period_m, 0.02 * period_m);
+  EXPECT_NEAR(found.amplitude, amplitude_v, 0.4 * amplitude_v);
   EXPECT_NEAR(std::remainder(found.phase_rad - kPhase, 2 * std::numbers::pi), 0, 0.6);
 }
 
+TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
+  expect_found(WaveOf::force, 0.15, 0.2, 0.04);
+}
+
 TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfAFriction) {
-  constexpr double kAmplitude_v = 0.1, kPeriod_m = 0.2, kPhase = 1.1;
-  const auto found = strongest_of(WaveOf::friction, 1, kAmplitude_v, kPeriod_m, kPhase);
-  EXPECT_NEAR(found.period, kPeriod_m, 0.02 * kPeriod_m);
-  EXPECT_NEAR(found.amplitude, kAmplitude_v, 0.4 * kAmplitude_v);
-  EXPECT_NEAR(std::remainder(found.phase_rad - kPhase, 2 * std::numbers::pi), 0, 0.6);
+  expect_found(WaveOf::friction, 1, 0.1, 0.2);
 }
 
 }  // namespace
