@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <ctime>
+#include <iostream>
 
 #include "../recording/temporary_directory.hpp"
 
@@ -60,6 +64,24 @@ TEST_F(Keys, AreReadableByTheirOwnerOnly) {
 TEST_F(Keys, AreNeverOverwritten) {
   EXPECT_THROW(make(directory(), valid_for(30)), std::runtime_error);
   EXPECT_THAT(problems_of("supervisor"), IsEmpty());
+}
+
+/// A limit of the size of files acts like a full disk.
+TEST_F(Keys, ThatCannotBeWrittenLeaveNoFile) {
+  const auto full = temporary_ / "full";
+  const auto make_and_exit = [&] {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      make(full, valid_for(10));
+    } catch (const std::runtime_error& error) {
+      std::cerr << error.what();
+    }
+    std::exit(3);
+  };
+  EXPECT_EXIT(make_and_exit(), testing::ExitedWithCode(3), "cannot write .*full");
+  EXPECT_FALSE(std::filesystem::exists(full));
 }
 
 TEST(Roles, OnlyTheSupervisorMayWriteCommands) {

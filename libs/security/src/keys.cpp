@@ -87,13 +87,9 @@ Validity valid_for(int days) {
   return {now_s - kHour_s, now_s + days * kDay_s};
 }
 
-void make(const fs::path& directory, const Validity& validity) {
-  if (fs::exists(directory) && !fs::is_empty(directory))
-    throw std::runtime_error{directory.string() +
-                             " is not empty: keys are never overwritten; name another directory, " +
-                             "or remove it, and every process needs the new keys"};
-  if (directory.has_parent_path()) fs::create_directories(directory.parent_path());
-  make_directory(directory);
+namespace {
+
+void fill(const fs::path& directory, const Validity& validity) {
   ::chmod(directory.c_str(), 0700);
   make_directory(directory / "private");
   const auto identities = make_authority("identity_ca", directory, validity);
@@ -103,6 +99,29 @@ void make(const fs::path& directory, const Validity& validity) {
   for (const auto& role : roles())
     for (const auto vendor : kVendors)
       make_identity(directory, role, vendor, validity, identities, permissions);
+}
+
+}  // namespace
+
+void make(const fs::path& directory, const Validity& validity) {
+  const bool exists = fs::exists(directory);
+  if (exists && !fs::is_directory(directory))
+    throw std::runtime_error{directory.string() + " is no directory; name another one"};
+  if (exists && !fs::is_empty(directory))
+    throw std::runtime_error{directory.string() +
+                             " is not empty: keys are never overwritten; name another directory, " +
+                             "or remove it, and every process needs the new keys"};
+  if (directory.has_parent_path()) fs::create_directories(directory.parent_path());
+  make_directory(directory);
+  try {
+    fill(directory, validity);
+  } catch (...) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator{directory, ignored})
+      fs::remove_all(entry.path(), ignored);
+    if (!exists) fs::remove(directory, ignored);
+    throw;
+  }
 }
 
 }  // namespace crane::security
