@@ -11,7 +11,7 @@ class Memory : public ::testing::Test {
   [[nodiscard]] Bus bus(const std::string& crane = "crane") const {
     return Bus{{.vendor = Vendor::memory,
                 .crane = crane,
-                .source = crane == "*" ? crane_SOURCE_MONITOR : crane_SOURCE_PLANT,
+                .source = crane_SOURCE_PLANT,
                 .epoch = 3,
                 .network = network_}};
   }

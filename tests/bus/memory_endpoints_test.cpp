@@ -24,6 +24,17 @@ TEST_F(Memory, TwoCranesDoNotSeeEachOtherAndAStarSeesBoth) {
   EXPECT_EQ(ticks(all_reader), (Ticks{1, 2}));
 }
 
+/// A request in the partition "*" would move every crane.
+TEST_F(Memory, ANameOfSeveralCranesIsForReadersOnly) {
+  for (const char* name : {"*", "north*", "c?ane", "[ab]"}) {
+    Bus several = bus(name);
+    EXPECT_NO_THROW((void)several.subscriber(topics::state)) << name;
+    EXPECT_THROW((void)several.publisher(topics::request), Error) << name;
+    EXPECT_THROW((void)several.cdr_publisher(topics::request.description), Error) << name;
+    EXPECT_THROW((void)several.share(crane_SOURCE_OPERATOR, 1).publisher(topics::request), Error) << name;
+  }
+}
+
 TEST_F(Memory, ReportsMatchedAndUnmatchedEndpointsWithTheirNumber) {
   Bus a = bus();
   std::vector<std::string> events;

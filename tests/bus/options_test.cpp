@@ -8,7 +8,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::string refusal(const Options& options) {
   try {
@@ -46,16 +45,6 @@ TEST(Options, ADiscoveryServerIsUsedByFastDdsOnlyAndInsteadOfPeers) {
   for (const char* wrong : {"256.1.1.1", "127.0.0.1:0", "127.0.0.1:65536", "127.0.0.1:one", ":11811"})
     EXPECT_THAT(refusal({.vendor = Vendor::fastdds, .domain = 40, .discovery_server = wrong}),
                 HasSubstr("discovery_server: '" + std::string{wrong} + "' must be HOST or HOST:PORT"));
-}
-
-/// A DDS partition with these characters matches the names of several cranes.
-TEST(Options, ANameThatMatchesSeveralCranesIsRefusedForAnOperatorAndThoseWhoMoveACrane) {
-  for (const crane_Source source : {crane_SOURCE_OPERATOR, crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANT})
-    for (const char* name : {"*", "north*", "c?ane", "[ab]"})
-      EXPECT_THAT(refusal({.domain = 40, .crane = name, .source = source}),
-                  HasSubstr("crane = '" + std::string{name} + "': must not contain any of * ? [ ]"));
-  EXPECT_THAT(refusal({.domain = 101, .crane = "*", .source = crane_SOURCE_MONITOR}),
-              AllOf(HasSubstr("domain = 101"), Not(HasSubstr("must not contain"))));
 }
 
 TEST(Options, AllProblemsAreReportedAtOnce) {

@@ -24,7 +24,7 @@ inline Options options(Vendor vendor, std::uint32_t domain, const std::string& c
   return {.vendor = vendor,
           .domain = domain,
           .crane = crane == "*" ? crane : crane + "_" + std::to_string(getpid()),  // tests run side by side
-          .source = crane == "*" ? crane_SOURCE_MONITOR : crane_SOURCE_PLANT,
+          .source = crane_SOURCE_PLANT,
           .epoch = 11,
           .network = network};
 }

@@ -16,6 +16,15 @@ constexpr std::array<std::string_view, 7> kEventNames{
     "matched",           "unmatched",        "deadline_missed", "liveliness_lost",
     "liveliness_gained", "incompatible_qos", "sample_lost"};
 
+/// The name of the crane is a DDS partition. With these characters it matches the partitions of several
+/// cranes.
+/// @throws Error: a request would move all of them
+void require_one_crane(const Options& options) {
+  if (options.crane.find_first_of("*?[]") != std::string::npos)
+    throw Error{"crane = '" + options.crane +
+                "': a program that writes needs the name of one crane, without * ? [ ]"};
+}
+
 void require_sealable(const topics::Description& topic) {
   if (CdrCodec::of(*topic.descriptor).is_sealable()) return;
   throw Error{"topic " + std::string{topic.name} + ": type " + topic.descriptor->m_typename +
@@ -78,6 +87,7 @@ const Options& Bus::options() const { return state_->options; }
 
 UntypedPublisher Bus::make_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {
   require_sealable(topic);
+  require_one_crane(state_->options);
   try {
     return UntypedPublisher{std::make_unique<UntypedPublisher::State>(
         UntypedPublisher::State{.topic = topic,

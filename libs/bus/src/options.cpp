@@ -121,19 +121,10 @@ DiscoveryServer discovery_server_in(const std::string& text) {
   return server;
 }
 
-/// Only such a program may see several cranes: a request would move all of them.
-bool only_reads(crane_Source source) {
-  return source == crane_SOURCE_NONE || source == crane_SOURCE_MONITOR || source == crane_SOURCE_RECORDER;
-}
-
 Options checked(Options options) {
   constexpr std::uint32_t kMaxDomain = 100;
   std::vector<std::string> problems;
   if (options.crane.empty()) problems.push_back("crane is empty: give the crane a name");
-  // The name is a DDS partition. A partition with these characters matches the partitions of several cranes.
-  if (options.crane.find_first_of("*?[]") != std::string::npos && !only_reads(options.source))
-    problems.push_back("crane = '" + options.crane +
-                       "': must not contain any of * ? [ ], except for a tool that only reads");
   if (options.vendor == Vendor::memory) {
     if (!options.network)
       problems.push_back("network is not set: every memory bus of a stack shares one make_memory_network()");
