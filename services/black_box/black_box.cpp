@@ -112,9 +112,10 @@ int run(const Options& options) {
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
   if (error || ::access(options.directory.c_str(), W_OK) != 0)
-    throw configuration::ConfigurationError({"directory of the black box = " + options.directory.string() +
-                                             ": must be a directory that this user can write; --out of crane "
-                                             "black-box, --black-box of crane up"});
+    throw configuration::ConfigurationError(
+        {"directory of the black box = " + options.directory.string() +
+         ": must be a directory in which this user can write; set it with "
+         "crane black-box --out or crane up --black-box"});
   Writer writer{options, origin_of(options)};
   bus::Bus bus{
       runtime::bus_options(options.bus, "crane_black_box", crane_SOURCE_RECORDER, runtime::random_epoch())};

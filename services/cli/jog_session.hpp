@@ -21,11 +21,12 @@ class JogSession {
  public:
   explicit JogSession(bus::Bus& bus);
 
-  /// Waits for a sample of crane/state, whose tick the samples of crane/jog carry, and requests a session for
-  /// the selected axes.
+  /// Waits for a sample of crane/state, because every sample of crane/jog contains its tick. Then requests a
+  /// session for the selected axes.
   /// @throws NoAnswer when no state or no answer arrives
   [[nodiscard]] Answer begin(const std::array<bool, 3>& selected, const Patience& patience = {});
-  /// Sends the value of `stick` every 20 ms until `over` returns true. A released stick returns nothing.
+  /// Sends the value of `stick` every 20 ms until `over` returns true. `stick` returns nothing while it is
+  /// released.
   /// @param stops  true: a stop signal ends the wait
   /// @return false at the timeout or after a stop signal
   /// @throws std::runtime_error when the crane stops, or another move or session replaces this one

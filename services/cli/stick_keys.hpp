@@ -24,8 +24,8 @@ class StickKeys {
   void take(std::string_view bytes, double now_s);
   /// Deflection of trolley, slew and hoist; 0 while inching is on.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
-  /// Time of the last key that deflects the stick; negative: no such key yet, or the space bar or the key i
-  /// or r has released the stick.
+  /// Time of the last key that deflects the stick; negative: the stick is released, because no such key
+  /// was pressed yet, or because the space bar or the key i or r has released it.
   [[nodiscard]] double last_s() const { return last_s_; }
   [[nodiscard]] bool quits() const { return quits_; }
   [[nodiscard]] bool micro() const { return micro_; }

@@ -23,7 +23,7 @@ class Api {
 
   /// Calls `answer` exactly once: at once, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
-  /// True for a stop that the visitor may request with any token.
+  /// True for a stop that this visitor may request without a token or with a wrong one.
   [[nodiscard]] bool is_permitted_stop(const ApiRequest& request) const;
   /// Starts waiting jobs and collects finished ones.
   void poll() { runs_.poll(); }

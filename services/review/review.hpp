@@ -47,10 +47,10 @@ struct Review {
   std::vector<observation::TopicTraffic> topics;  ///< in the order of topics::kAll
   std::vector<std::string> problems;              ///< problems of the file
 
-  /// The stop with the trigger; without it, the first fault; without a fault, the first stop by the operator;
-  /// without any, the first other order, and then a stop before the recording. nullptr: no stop.
+  /// The first of these that exists: the stop with the trigger; the first fault; the first stop by the
+  /// operator; the first other order; a stop that began before the recording. nullptr: none.
   [[nodiscard]] const observation::Fault* first_stop() const;
-  /// First cause of first_stop(): the trigger, the first fault, or, when no fault follows, the order.
+  /// The note that determines first_stop().
   [[nodiscard]] const observation::Note* first_cause() const;
 };
 

@@ -109,8 +109,8 @@ void make(const fs::path& directory, const Validity& validity) {
     throw std::runtime_error{directory.string() + " is no directory; name another one"};
   if (exists && !fs::is_empty(directory))
     throw std::runtime_error{directory.string() +
-                             " is not empty: keys are never overwritten; name another directory, " +
-                             "or remove it, and every process needs the new keys"};
+                             " is not empty, and keys are never overwritten: name another directory, " +
+                             "or remove this one and give the new keys to every process"};
   if (directory.has_parent_path()) fs::create_directories(directory.parent_path());
   make_directory(directory);
   try {

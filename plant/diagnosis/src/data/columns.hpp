@@ -38,8 +38,9 @@ struct Findings {
 /// Whether times increase. Rows that repeat a time are removed.
 [[nodiscard]] bool times_increase(recording::Table& table, Findings& findings);
 
-/// Replaces the positions of an axis at rest by their median: an axis without command, beside a commanded
-/// axis, whose positions stay within 2 counts. A flickering count would be a motion of the support.
+/// Replaces the positions of an axis at rest by their median. An axis is at rest if it has no command, the
+/// other axis has one, and its positions stay within 2 counts. Otherwise a flickering count would be taken
+/// for a motion of the support.
 void hold_axes_at_rest(recording::Table& table, const configuration::Rig& rig, Findings& findings);
 
 /// Finds the columns of the rig and checks their names, units and values.

@@ -6,7 +6,7 @@
 
 namespace crane::diagnosis {
 
-/// A force along the axis, or a friction, which has the direction of the motion.
+/// force: along the axis, a function of the position only. friction: multiplied by the sign of the speed.
 enum class WaveOf { force, friction };
 
 /// amplitude * sin(2 pi position / period + phase_rad), in m/s2 or rad/s2, with the sign of the speed for a

@@ -203,9 +203,10 @@ report::Section candidates_section(const Diagnosis& diagnosis) {
   }
   section.blocks.emplace_back(std::move(table));
   section.blocks.emplace_back(report::Paragraph{
-      "The gain is the decrease of the deviance: minus twice the log likelihood of the training data plus "
-      "the penalty of the parameters. The p value is that of the score test of the candidate alone, beside "
-      "the base model. Resamples: share of the resamples of the training data that vote for the candidate."});
+      "The deviance is minus twice the log likelihood of the training data plus the penalty of the "
+      "parameters; the gain is its decrease. The p value is that of a score test that adds only this "
+      "candidate to the base model. Resamples: share of the resamples of the training data that vote for the "
+      "candidate."});
   return section;
 }
 

@@ -19,9 +19,10 @@ InRigFile in_rig_file(bool known) { return known ? InRigFile::yes : InRigFile::n
 
 /// Travel of the support [m or rad] below which an error of its sensor is not visible.
 constexpr double kResting = 0.005;
-/// Longest wave along the travel, in travels. Of a friction: half a wave, the slope beside a tight spot. Of a
-/// ripple: one wave. A longer part of a wave does not show that a force is periodic: a spring at one end of
-/// the travel has the same form.
+/// Longest wavelength of a friction and of a ripple, as a multiple of the travel. The travel contains at
+/// least half a wave of a friction, the slope beside a tight spot, and a whole wave of a ripple. A smaller
+/// part of a wave does not show that a force is periodic: a spring at one end of the travel has the same
+/// form.
 constexpr double kLongestWave = 2, kLongestRipple = 1;
 
 class Builder {

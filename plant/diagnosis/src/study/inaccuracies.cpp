@@ -10,7 +10,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// The load mass is free. The data of two drives also show the ratio of the inertias of both drives.
+/// True when the load mass is free and both drives have commands: only then do the data show the ratio of the
+/// inertias of the drives.
 bool show_jib_inertia(const std::vector<Candidate>& candidates) {
   const auto has = [&](std::string_view cause, std::string_view axis) {
     return std::ranges::any_of(candidates,
@@ -19,7 +20,7 @@ bool show_jib_inertia(const std::vector<Candidate>& candidates) {
   return has("payload_mass", "") && has("motor_gain", "trolley") && has("motor_gain", "slew");
 }
 
-/// Never a cause: with the load mass and the mass of the trolley, it determines the same ratios.
+/// The inertia of the jib is never a cause: the data show only its ratios to the masses of load and trolley.
 Candidate jib_inertia() {
   CandidateList list;
   list.add(amount("jib_inertia", "", "factor", 0.5, 2, 0.01), Changes::both, InRigFile::yes);

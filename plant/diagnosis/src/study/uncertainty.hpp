@@ -25,10 +25,9 @@ struct Uncertainty {
 };
 
 /// Error of a quantity that the fit holds constant: the column of the slope of this quantity, and the
-/// standard deviation of the error. There are three kinds. The zero of a swing sensor: an incremental encoder
-/// is zeroed to one of its counts, and the data do not show this error. The masses of the drives: the data
-/// show only the ratio of the load mass to them. An inaccuracy at its bound: the data prefer a value that the
-/// rig file excludes.
+/// standard deviation of the error. Three kinds of quantity have such an error: the zero of a swing sensor,
+/// which is known to one count only; the masses of the drives, because the data show only the ratio of the
+/// load mass to them; an inaccuracy whose fitted value is at its bound.
 struct Study::HeldError {
   Eigen::Index column = 0;
   double std_dev = 0;

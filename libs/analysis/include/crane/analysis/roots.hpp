@@ -24,7 +24,7 @@ struct Box {
 [[nodiscard]] std::vector<Complex> roots_in(const QuasiPolynomial& f, double left, double right, double top);
 
 /// All roots with Re s >= abscissa and Im s >= 0.
-/// @throws std::invalid_argument for f with a problem() and as root_bound(); std::domain_error as roots_in()
+/// @throws std::invalid_argument when f has a problem(); the exceptions of root_bound() and roots_in()
 [[nodiscard]] std::vector<Complex> roots_right_of(const QuasiPolynomial& f, double abscissa);
 
 }  // namespace crane::analysis

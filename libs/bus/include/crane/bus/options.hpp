@@ -47,8 +47,9 @@ struct Options {
   /// none.
   std::string discovery_server{};
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
-  /// True: Publisher::wait_until_received() returns soon after the reception, because Cyclone DDS sends
-  /// heartbeats every 2 ms also on loop-back, instead of every 100 ms. No effect on the other vendors.
+  /// True: Cyclone DDS sends heartbeats every 2 ms on loop-back, too, instead of every 100 ms.
+  /// Publisher::wait_until_received() then returns soon after the reception. Other vendors ignore this
+  /// option.
   bool confirms_soon = false;
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
   /// needs no credentials.

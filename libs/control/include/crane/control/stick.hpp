@@ -34,8 +34,8 @@
 
 namespace crane::control {
 
-/// Slots for pending changes of speed: the swing period of the longest cable is at most kStickSlots - 3
-/// ticks.
+/// Number of slots for pending changes of speed. It limits the cable: the swing period of the longest cable
+/// must not exceed kStickSlots - 3 ticks.
 inline constexpr std::size_t kStickSlots = 4096;
 
 /// One axis; "unit" is m (trolley, hoist) or rad (slew).

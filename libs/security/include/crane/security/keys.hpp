@@ -36,8 +36,8 @@ struct Validity {
 /// Begins an hour ago, because the clocks of two hosts differ, and ends after `days`.
 [[nodiscard]] Validity valid_for(int days);
 
-/// Makes authorities and one identity per role and vendor. @throws std::runtime_error when `directory` is not
-/// empty or no directory, or when a file cannot be written; then no file remains
+/// Makes authorities and one identity per role and vendor. @throws std::runtime_error when `directory`
+/// exists and is not an empty directory, or when a file cannot be written; make() then removes its files
 void make(const std::filesystem::path& directory, const Validity& validity);
 
 /// Reasons why the identity cannot be used now, each with file, value, rule and remedy.
