@@ -111,7 +111,8 @@ void add_record(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RecordOptions>();
   auto* command = app.add_subcommand("record", "Record topics into an MCAP file until Ctrl-C");
   command->add_option("FILE", options->recorder.file, "file to create")->required();
-  command->add_option("--duration", options->duration_s, "duration in s")->check(positive_number());
+  command->add_option("--duration", options->duration_s, "duration in s, from the start of the command")
+      ->check(positive_number());
   command
       ->add_option_function<std::vector<std::string>>(
           "--topic",

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/number_range.hpp"
 #include "cli/snapshot.hpp"
 #include "cli/tool_bus.hpp"
 #include "commands.hpp"
@@ -81,9 +82,10 @@ void add_supervisor(CLI::App& app, Action& chosen) {
       "explain",
       "Print the rule table; with --live or --state: whether the state accepts reset, arm, move and home");
   auto options = std::make_shared<ExplainOptions>();
-  command->add_option("--state", options->state, "explain the last state of this recording");
-  command->add_flag("--live", options->live, "explain the state of the running crane");
-  command->add_option("--timeout", options->timeout_s, "longest wait for the supervisor in s");
+  auto* recorded = command->add_option("--state", options->state, "explain the last state of this recording");
+  command->add_flag("--live", options->live, "explain the state of the running crane")->excludes(recorded);
+  command->add_option("--timeout", options->timeout_s, "longest wait for the supervisor in s")
+      ->check(number_in(kShortestWait_s, kLongestWait_s));
   runtime::add_bus_options(*command, options->bus);
   command->callback([options, &chosen] { chosen = [options] { return explain(*options); }; });
 }

@@ -10,11 +10,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Largest number of alternations of fit and noise model, and the decrease of the deviance below which they
-/// end.
-constexpr int kMostNoiseRounds = 3;
-constexpr double kWorthARound = 2;
-
 ShowsIn shown_in(const Effects& effects) {
   ShowsIn parts;
   for (const Effect& effect : effects) {
@@ -153,7 +148,7 @@ Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
     const double gained = least - sum(last.deviance);
     if (!(gained > 0)) break;
     best = last;
-    least -= gained;
+    least = sum(last.deviance);
     if (gained < kWorthARound) break;
   }
   whiten_training(best.nuisance);

@@ -17,8 +17,6 @@ using Eigen::VectorXd;
 /// Window lengths. The swing needs about one period. In a longer window of a drive that sticks and slips,
 /// late or missing slips dominate the residual and hide the error of the friction.
 constexpr double kSwingWindow_s = 2, kDriveWindow_s = 1;
-/// Number of alternations of the fit of the inaccuracies and the noise model of the base model.
-constexpr int kCalibrations = 2;
 
 Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load,
                   std::vector<VectorXd> equation_error) {
@@ -128,12 +126,21 @@ void Study::learn_disturbance(const Effects& effects) {
   evaluate_base();
   uncalibrated_ = nuisance();
   if (!effects.empty()) return;
-  // An error of the rig file within its accuracy belongs to the base model, not to the noise.
-  for (int round = 0; round < kCalibrations && !inaccuracies_.empty(); ++round) {
+  calibrate();
+}
+
+void Study::calibrate() {
+  double least = sum(deviance_of(train_, base_train_));
+  for (int round = 0; round < kMostNoiseRounds && !inaccuracies_.empty(); ++round) {
+    const Nuisance before = nuisance();
     Fitted base;
     base.train = base_train_;
     fit_inaccuracies(base);
     whiten_with(nuisance_of(base));
+    const double gained = least - sum(deviance_of(train_, base_train_));
+    if (gained < 0) whiten_with(before);
+    if (gained < kWorthARound) break;
+    least -= gained;
   }
 }
 

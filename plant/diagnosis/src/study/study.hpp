@@ -27,6 +27,11 @@ using Effects = std::vector<Effect>;
 using Blocks = std::vector<double>;
 inline constexpr double kBlock_s = 2.0;
 
+/// Fit and noise model alternate until a round decreases minus twice the log likelihood by less than
+/// kWorthARound.
+inline constexpr int kMostNoiseRounds = 6;
+inline constexpr double kWorthARound = 2;
+
 /// Residuals of one crane over a set of runs.
 struct Evaluation {
   Fits drive, load;
@@ -196,6 +201,9 @@ class Study {
   [[nodiscard]] std::vector<HeldError> zero_errors(Effects& effects) const;
   /// Errors of the masses of the drives, if the load mass is a value of the effects.
   [[nodiscard]] std::vector<HeldError> mass_errors(const Effects& effects) const;
+  /// Fits the inaccuracies of the rig file: an error within the accuracy belongs to the base model, not to
+  /// the noise.
+  void calibrate();
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
   void fit_inaccuracies(Fitted& fitted);
   /// Sets covariance and penalty of a fit. @param along slopes, of the effects first
