@@ -19,7 +19,7 @@ struct Choice {
 constexpr const char* kTower = "virginia_tech_tower";
 constexpr const char* kGantry = "gantry";
 
-/// All controllers, two rigs, each axis alone and with others, both directions.
+/// Eleven controllers, two rigs, each axis alone and with others, both directions.
 constexpr std::array<Choice, kSettings> kChoices{{
     {kTower, "gain_scheduling_partial", {0.3, 0, 1}, {1.05, 0, 1}, 0},
     {kGantry, "gain_scheduling_full", {0.5, 0, 1.5}, {1.7, 0, 1.5}, 0},
