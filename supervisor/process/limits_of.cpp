@@ -32,6 +32,13 @@ void add_friction_of_model(const configuration::Rig& rig, MachineModel& machine)
   }
 }
 
+/// After 2 / ratio ticks, the transient of a second-order Butterworth filter is exp(-2 sqrt(2) pi) = 1.4e-4
+/// of its initial size.
+void filter_swing(double cut_off_ratio, MachineModel& machine) {
+  machine.swing_filter = control::butterworth_low_pass(cut_off_ratio);
+  if (cut_off_ratio > 0) machine.swing_filter_ticks = static_cast<int>(std::ceil(2 / cut_off_ratio));
+}
+
 MachineModel machine_of(const configuration::Rig& rig) {
   MachineModel machine{.known = rig.limits.model_checks, .crane = rig.design.crane};
   for (std::size_t i = 0; i < kAxes; ++i) {
@@ -48,6 +55,8 @@ MachineModel machine_of(const configuration::Rig& rig) {
     machine.swing_resolution_rad[i] = count_of(rig.encoders[kAxes + i]);
     machine.swing_measured[i] = load && machine.swing_resolution_rad[i] > 0;
   }
+  machine.swing_filtered = rig.sensing.filter_swing_angle;
+  if (machine.swing_filtered) filter_swing(rig.sensing.swing_filter_ratio, machine);
   machine.cable_measured = machine.resolution[plant::kHoist] > 0;
   machine.cable_m = rig.start.position[plant::kHoist];
   return machine;

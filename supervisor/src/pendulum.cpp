@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "crane/plant/pendulum.hpp"
 
@@ -34,14 +35,30 @@ Plane turned(const Plane& a, double angle_rad) {
   return {c * a[0] - s * a[1], s * a[0] + c * a[1]};
 }
 
+/// Positions with the delay of the measured swing angles.
+PerAxis filtered(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) {
+  const control::FilterSection& filter = limits.machine.swing_filter;
+  if (!limits.machine.swing_filtered) return input.position;
+  const bool starts = !std::exchange(memory.filter_started, true);
+  memory.filter_ticks_left =
+      starts ? limits.machine.swing_filter_ticks : std::max(memory.filter_ticks_left - 1, 0);
+  PerAxis position{};
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (starts) memory.filter[i] = control::settled(filter, input.position[i]);
+    position[i] = control::step(filter, memory.filter[i], input.position[i]);
+  }
+  return position;
+}
+
 /// Depth and offsets by (2.11) of H. M. Omar, Control of Gantry and Tower Cranes.
-PendulumMemory::PastSample past_sample(const Limits& limits, const PendulumInput& input) {
-  const double cable_m = limits.machine.cable(input.position[2]);
+PendulumMemory::PastSample past_sample(const Limits& limits, const PendulumInput& input,
+                                       const PerAxis& position) {
+  const double cable_m = limits.machine.cable(position[2]);
   const double radial = input.radial_rad, tangential = input.tangential_rad;
   const Plane load_offset{-cable_m * std::cos(tangential) * std::sin(radial), cable_m * std::sin(tangential)};
   return {.sampled_s = input.sampled_s,
-          .pivot_m = turned({input.position[0], 0}, input.position[1]),
-          .load_offset_m = turned(load_offset, input.position[1]),
+          .pivot_m = turned({position[0], 0}, position[1]),
+          .load_offset_m = turned(load_offset, position[1]),
           .depth_m = std::max(cable_m * std::cos(tangential) * std::cos(radial), kLeastDepth * cable_m)};
 }
 
@@ -97,9 +114,11 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
 bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
   bool stopped = false;
   const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};
+  // A filtered angle changes in every tick by a part of a count.
+  const double least_counts = limits.machine.swing_filtered ? 0.5 / kNoCount_ticks : 0.5;
   for (std::size_t i = 0; i < 2; ++i) {
     const bool no_count =
-        std::abs(swing_rad[i] - memory.swing_rad[i]) <= limits.machine.swing_resolution_rad[i] / 2;
+        std::abs(swing_rad[i] - memory.swing_rad[i]) <= least_counts * limits.machine.swing_resolution_rad[i];
     memory.swing_rad[i] = swing_rad[i];
     memory.counting_ticks[i] = no_count ? std::max(memory.counting_ticks[i] - 1, 0) : 2 * kPush_ticks;
     memory.no_count_ticks[i] = no_count && memory.push_left_s > 0 ? memory.no_count_ticks[i] + 1 : 0;
@@ -146,15 +165,16 @@ bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, Pendu
     memory = {.largest = memory.largest};
   memory.recent[2] = memory.recent[1];
   memory.recent[1] = memory.recent[0];
-  memory.recent[0] = past_sample(limits, input);
+  const PerAxis position = filtered(limits, input, memory);
+  memory.recent[0] = past_sample(limits, input, position);
   memory.samples = std::min(memory.samples + 1, kMeanSamples + 2);
   if (memory.samples < 3) return false;
   memory.balances[memory.next] = balance_of(limits, memory);
   memory.next = (memory.next + 1) % kMeanSamples;
-  if (memory.samples < kMeanSamples + 2) return false;
-  const double cable_m = machine.cable(input.position[2]);
+  if (memory.samples < kMeanSamples + 2 || memory.filter_ticks_left > 0) return false;
+  const double cable_m = machine.cable(position[2]);
   const double span_s = (memory.recent[0].sampled_s - memory.recent[2].sampled_s) / 2;
-  add(limits, cable_m, input.position[1], span_s, memory);
+  add(limits, cable_m, position[1], span_s, memory);
   const double ratio = norm(memory.sum_mps) / pendulum_limit(limits, cable_m, span_s);
   if (follow_counts(limits, input, span_s, memory)) return true;
   if (ratio > 1 && was_pushed(memory)) return false;

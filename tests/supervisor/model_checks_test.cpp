@@ -128,7 +128,7 @@ TEST_F(Trolley, WithAFrozenEncoderIsDetectedInTheNextTicks) {
   EXPECT_LE(ticks, 2);
 }
 
-/// A pendulum with a resting trolley.
+/// A pendulum with a resting trolley, or with a trolley that moves sinusoidally.
 class Load : public testing::Test {
  protected:
   /// @return number of ticks until the failure of its encoders is detected; 0: not detected
@@ -138,24 +138,41 @@ class Load : public testing::Test {
     constexpr int kSteps = 100;
     for (int tick = 1; tick <= ticks; ++tick) {
       for (int step = 0; step < kSteps; ++step) {
-        rate_ += (wind_mps2_ / cable_m_ - omega2 * std::sin(angle_)) * kTick_s / kSteps;
+        const double pivot_mps2 = -trolley_m_ * kTrolley_radps * kTrolley_radps *
+                                  std::sin(kTrolley_radps * (time_s_ + step * kTick_s / kSteps));
+        rate_ += ((wind_mps2_ + pivot_mps2 * std::cos(angle_)) / cable_m_ - omega2 * std::sin(angle_)) *
+                 kTick_s / kSteps;
         angle_ += rate_ * kTick_s / kSteps;
       }
       time_s_ += kTick_s;
+      const double position_m = 0.5 + trolley_m_ * std::sin(kTrolley_radps * time_s_);
       const double count = limits_.machine.swing_resolution_rad[0];
-      const double shown = std::round(show(angle_) / count) * count;
-      if (swing_sensor_failed(limits_,
-                              {.sampled_s = time_s_, .position = {0.5, 0, measured_m_}, .radial_rad = shown},
-                              memory_))
+      double shown = std::round(show(angle_) / count) * count;
+      if (limits_.machine.swing_filtered) shown = control::step(limits_.machine.swing_filter, filter_, shown);
+      if (swing_sensor_failed(
+              limits_, {.sampled_s = time_s_, .position = {position_m, 0, measured_m_}, .radial_rad = shown},
+              memory_))
         return tick;
     }
     return 0;
   }
   static double as_it_is(double angle) { return angle; }
 
+  /// Begins again with an angle that passes the low-pass filter of section 4.3.
+  void filter_angle(double angle_rad) {
+    configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+    rig.sensing.filter_swing_angle = true;
+    limits_ = limits_of(rig);
+    filter_ = control::settled(limits_.machine.swing_filter, angle_rad);
+    memory_ = {};
+    angle_ = angle_rad, rate_ = 0;
+  }
+
+  static constexpr double kTrolley_radps = 5;  // amplitude 0.1 m: 2.5 m/s2
   Limits limits_ = limits_of_rig("virginia_tech_tower");
   PendulumMemory memory_;
-  double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1, wind_mps2_ = 0;
+  control::FilterMemory filter_;
+  double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1, wind_mps2_ = 0, trolley_m_ = 0;
 };
 
 TEST_F(Load, ThatSwingsIsNotAFailure) { EXPECT_EQ(swing(6000, as_it_is), 0); }
@@ -199,6 +216,25 @@ TEST_F(Load, WithAFrozenEncoderIsDetectedAtAnyAngle) {
     const int ticks = swing(100, [stands](double) { return stands; });
     EXPECT_GT(ticks, 0) << begin;
     EXPECT_LE(ticks, 30) << begin << ", at " << stands << " rad";
+  }
+}
+
+/// The low-pass filter delays the angle by 45 ms. At 2.5 m/s2, the sum would then grow by 1.5 m/s per second.
+TEST_F(Load, UnderAMovingTrolleyIsNoFailureWithOrWithoutFilteredAngles) {
+  trolley_m_ = 0.1;
+  EXPECT_EQ(swing(3000, as_it_is), 0);
+  filter_angle(0.1);
+  EXPECT_EQ(swing(3000, as_it_is), 0);
+}
+
+TEST_F(Load, WithAFrozenEncoderAndFilteredAnglesIsDetected) {
+  for (int begin = 60; begin < 160; begin += 7) {
+    filter_angle(0.3);
+    ASSERT_EQ(swing(begin, as_it_is), 0);
+    const double stands = angle_;
+    const int ticks = swing(100, [stands](double) { return stands; });
+    EXPECT_GT(ticks, 0) << begin;
+    EXPECT_LE(ticks, 40) << begin << ", at " << stands << " rad";
   }
 }
 

@@ -34,8 +34,7 @@ TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
   const Runs train = two_runs(crane, rig), none;
   Study study(rig, train, none, {}, kUsualAccuracy);
   study.learn_disturbance();
-  const auto drag =
-      std::ranges::find(study.candidates(), std::string{"viscous_friction"}, &Candidate::cause);
+  const auto drag = std::ranges::find(study.candidates(), std::string{"viscous_friction"}, &Candidate::cause);
   ASSERT_NE(drag, study.candidates().end());
   const Fitted once = study.refit_with_own_noise(study.first_fit({{&*drag, {0.02}}}, study.base_model()));
   Fitted again = once;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crane/control/drive_limits.hpp"
+#include "crane/control/filters.hpp"
 #include "crane/control/operating_limits.hpp"
 #include "crane/control/path.hpp"
 #include "crane/control/zone.hpp"
@@ -30,6 +31,9 @@ struct MachineModel {
   PerAxis resolution{};                                                  ///< one count of the encoder, unit
   std::array<bool, 2> swing_measured{};                                  ///< radial, tangential
   std::array<double, 2> swing_resolution_rad{};
+  bool swing_filtered = false;            ///< true: crane/state contains filtered swing angles
+  control::FilterSection swing_filter{};  ///< of these angles, one step per tick
+  int swing_filter_ticks = 0;             ///< ticks until this filter has settled; 0 without filter
   bool cable_measured = false;
   double cable_m = 1;  ///< length of a cable that is not measured, > 0
 

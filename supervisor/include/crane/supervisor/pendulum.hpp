@@ -18,6 +18,10 @@
 /// change of the swing rate in the same direction. The push is not tolerated when a swing encoder that was
 /// counting does not change for kNoCount_ticks afterwards: a push does not stop a load exactly.
 ///
+/// If crane/state contains filtered swing angles, the check filters the positions in the same way: the
+/// balance then holds for the filtered motion. After the first sample, and after a gap of more than 0.1 s,
+/// the check waits until its filter has settled.
+///
 /// Detection time of a frozen swing encoder with the error a, rad:
 ///   (kPermittedSum_mps + noise) / (g (|a| - kZeroError_rad) - wind) + (kMeanSamples + 2) ticks.
 /// An error below kZeroError_rad + wind / g is not detected: 46 mrad with the default wind of 0.25 m/s2.
@@ -58,6 +62,9 @@ struct PendulumMemory {
   };
   std::array<PastSample, 3> recent{};
   std::size_t samples = 0;  ///< number of samples since the start, at most kMeanSamples + 2
+  std::array<control::FilterMemory, kAxes> filter{};  ///< of the positions, if the angles are filtered
+  bool filter_started = false;
+  int filter_ticks_left = 0;  ///< until the filter of the positions has settled; the sum is 0 before
   std::array<Balance, kMeanSamples> balances{};
   std::size_t next = 0;  ///< index of the next balance
   Plane sum_mps{};
