@@ -20,8 +20,8 @@ constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
 /// A sweep that decreases minus twice the log likelihood by less is the last one.
 constexpr double kWorthASweep = 1;
 /// Largest number of searches with inaccurate times; they end when the noise changes by less than this share.
-constexpr int kScaleRounds = 3;
-constexpr double kSameScale = 0.1;
+constexpr int kScaleRounds = 4;
+constexpr double kSameScale = 0.03;
 /// A search from scratch uses about this number of windows, evenly distributed; a search near its result uses
 /// all.
 constexpr std::size_t kFewWindows = 30;
@@ -34,7 +34,7 @@ class Learning {
       : residuals_(residuals), motions_(motions), least_noise_(least_noise) {}
 
   Disturbance run(const Disturbance& near) {
-    if (near.noise > 0) return inaccurate_times() ? with_inaccurate_times(near) : search(in_noises(near));
+    if (near.noise > 0) return likeliest_near(near);
     Disturbance start;
     start.noise = 1;
     start.correlation_s = 0.2;
@@ -45,7 +45,7 @@ class Learning {
     start.friction = 1;
     const Disturbance sticking = search(start);
     const Disturbance& likelier = sticking.misfit < best.misfit ? sticking : best;
-    return inaccurate_times() ? with_inaccurate_times(likelier) : likelier;
+    return inaccurate_times() ? likeliest_near(likelier) : likelier;
   }
 
  private:
@@ -57,16 +57,24 @@ class Learning {
     return d;
   }
 
-  /// Searches from `near`. The inaccuracy of the speed has a known size, so that its ratio to the noise
-  /// follows from the noise of the search before.
-  Disturbance with_inaccurate_times(const Disturbance& near) {
-    Disturbance found = search(in_noises(near));
-    for (int round = 1; round < kScaleRounds; ++round) {
-      const double before = found.noise;
-      found = search(in_noises(found));
-      if (std::abs(found.noise - before) < kSameScale * before) break;
+  /// The likeliest of `near` and the results of searches from it. The inaccuracy of the speed has a known
+  /// size, so that its ratio to the noise follows from the noise of the search before. Only with inaccurate
+  /// times, a search is repeated, and its result can be less likely than `near`.
+  Disturbance likeliest_near(const Disturbance& near) {
+    Disturbance best = near, last = near;
+    best.misfit = misfit_of(near);
+    for (int round = 0; round < kScaleRounds; ++round) {
+      Disturbance found = search(in_noises(last));
+      if (inaccurate_times()) found.misfit = misfit_of(found);
+      if (found.misfit < best.misfit) best = found;
+      if (!inaccurate_times() || std::abs(found.noise - last.noise) < kSameScale * last.noise) break;
+      last = found;
     }
-    return found;
+    return best;
+  }
+
+  [[nodiscard]] double misfit_of(const Disturbance& d) const {
+    return value_at(d.noise * d.noise, residuals_, motions_, in_noises(d));
   }
 
   [[nodiscard]] bool inaccurate_times() const {
@@ -79,7 +87,7 @@ class Learning {
   Disturbance search(const Disturbance& start) {
     best_ = start;
     rejected_.clear();
-    found_ = likelihood(residuals_, motions_, best_, {});
+    found_ = likelihood(residuals_, motions_, best_, {}, least_noise_ * least_noise_);
     if (best_.acceleration == 0) begin();
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       const double before = found_.value;
@@ -93,7 +101,7 @@ class Learning {
     const double noise = std::sqrt(found_.variance);
     found.acceleration *= noise;
     found.friction *= noise;
-    found.noise = std::max(noise, least_noise_);
+    found.noise = std::max(noise, least_noise_);  // the residuals can all be zero
     found.unit = 1;
     found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // all residuals are zero
     return found;
@@ -105,7 +113,7 @@ class Learning {
     const std::array<double, 5> place{d.acceleration, d.correlation_s, d.damping_ps, d.friction,
                                       d.sticks ? 1.0 : 0.0};
     if (std::ranges::find(rejected_, place) != rejected_.end()) return false;
-    const Likelihood tried = likelihood(residuals_, motions_, d, found_);
+    const Likelihood tried = likelihood(residuals_, motions_, d, found_, least_noise_ * least_noise_);
     const bool likelier = tried.value < found_.value;
     if (likelier)
       found_ = tried;

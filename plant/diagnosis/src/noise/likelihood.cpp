@@ -100,25 +100,54 @@ bool robust_variance_is_at_least(double variance, const std::vector<Innovations>
   return false;
 }
 
+struct AllInnovations {
+  std::vector<Innovations> of_windows;
+  double logs = 0, squares = 0, count = 0;
+};
+
+AllInnovations all_innovations(const std::vector<VectorXd>& residuals,
+                               const std::vector<WindowMotion>& motions, const Disturbance& d) {
+  AllInnovations all;
+  all.of_windows.resize(residuals.size());
+  parallel_for(residuals.size(),
+               [&](std::size_t w) { all.of_windows[w] = innovations(residuals[w], motions[w], d); });
+  for (const Innovations& window : all.of_windows) {
+    all.logs += window.logs;
+    for (const double square : window.squares) all.squares += square;
+    all.count += static_cast<double>(window.squares.size());
+  }
+  return all;
+}
+
+double value_at(double variance, const AllInnovations& all) {
+  SumOfLogs logs;
+  for (const Innovations& window : all.of_windows)
+    for (const double square : window.squares) logs.add(1 + square / (kCauchyScaleSquared * variance));
+  const double excess = kCauchyScaleSquared * logs.value() - kMeanLoss * all.count;
+  return all.logs + all.count * std::log(variance) + excess / kLossPerDeviance;
+}
+
 }  // namespace
 
 Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
-                      const Disturbance& d, const Likelihood& best) {
-  std::vector<Innovations> of_windows(residuals.size());
-  parallel_for(residuals.size(),
-               [&](std::size_t w) { of_windows[w] = innovations(residuals[w], motions[w], d); });
-  double logs = 0, squares = 0, count = 0;
-  for (const Innovations& window : of_windows) {
-    logs += window.logs;
-    for (const double square : window.squares) squares += square;
-    count += static_cast<double>(window.squares.size());
-  }
-  if (!(squares > 0)) return {};
+                      const Disturbance& d, const Likelihood& best, double least_variance) {
+  const AllInnovations all = all_innovations(residuals, motions, d);
+  if (!(all.squares > 0)) return {};
+  // A variance at its bound has a larger value than the robust variance.
   if (best.variance > 0 &&
-      robust_variance_is_at_least(std::exp((best.value - logs) / count), of_windows, count))
+      robust_variance_is_at_least(std::exp((best.value - all.logs) / all.count), all.of_windows, all.count))
     return {};
-  const double variance = robust_variance(of_windows, best.variance > 0 ? best.variance : squares / count);
-  return {logs + count * std::log(variance), variance};
+  const double variance =
+      robust_variance(all.of_windows, best.variance > 0 ? best.variance : all.squares / all.count);
+  if (variance >= least_variance) return {all.logs + all.count * std::log(variance), variance};
+  const double value = value_at(least_variance, all);
+  if (value >= best.value) return {};
+  return {value, least_variance};
+}
+
+double value_at(double variance, const std::vector<VectorXd>& residuals,
+                const std::vector<WindowMotion>& motions, const Disturbance& d) {
+  return value_at(variance, all_innovations(residuals, motions, d));
 }
 
 }  // namespace crane::diagnosis

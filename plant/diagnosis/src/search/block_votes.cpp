@@ -14,12 +14,14 @@ constexpr int kVotes = 500;
 
 /// Limits each difference to twice the 95 % quantile of the magnitudes. Without the limit, one block can
 /// outweigh all others: a slip that comes a little earlier or later changes its block as much as a real
-/// effect changes all blocks together.
+/// effect changes all blocks together. A block with the difference 0 is in a part of the data in which no
+/// effect is visible; it does not count.
 void limit(std::vector<double>& differences) {
-  if (differences.empty()) return;
   std::vector<double> sizes;
   sizes.reserve(differences.size());
-  for (const double difference : differences) sizes.push_back(std::abs(difference));
+  for (const double difference : differences)
+    if (difference != 0) sizes.push_back(std::abs(difference));
+  if (sizes.empty()) return;
   const auto usual = sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), usual, sizes.end());
   for (double& difference : differences) difference = std::clamp(difference, -2 * *usual, 2 * *usual);
@@ -33,7 +35,7 @@ double block_test_p_value(const Blocks& now, const Blocks& before) {
   limit(difference);
   double sum = 0, squares = 0;
   for (const double one : difference) sum += one, squares += one * one;
-  if (!(sum > 0)) return 1;
+  if (!(sum > 0) || difference.size() < 2) return 1;
   const double count = static_cast<double>(difference.size()), variance = squares - sum * sum / count;
   return variance > 0 ? 0.5 * std::erfc(sum / std::sqrt(2 * variance * count / (count - 1))) : 0;
 }

@@ -269,10 +269,13 @@ class Search {
     std::vector<Fitted> fewer;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       const Effects rest = without(whole.effects, i);
-      const Fitted* fitted = find(found_.all, rest);
-      if (fitted == nullptr) study_.whiten_training(found_.base.nuisance);
-      fewer.push_back(fitted != nullptr ? *fitted
-                                        : study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
+      if (const Fitted* fitted = find(found_.all, rest)) {
+        fewer.push_back(*fitted);
+        continue;
+      }
+      study_.whiten_training(found_.base.nuisance);
+      fewer.push_back(study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
+      keep(found_.all, fewer.back());
     }
     for (const Fitted& one : fewer)
       if (!accepted(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))

@@ -20,8 +20,8 @@ constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
 /// A round that decreases the Cauchy loss by less is the last one.
 constexpr double kLeastGain = 0.3;
-/// The same for the sum of squares, relative to the sum.
-constexpr double kLeastRelativeGain = 0.003;
+/// The same for the sum of squares: the larger of a number of noise variances and a share of the sum.
+constexpr double kLeastGainOfSquares = 3, kLeastShareOfSquares = 1e-4;
 /// Pattern search on a rough loss (R. Hooke, T. A. Jeeves, J. ACM 8 (1961) 212): first step as a share of the
 /// value; last step as a share of the first; factor after a step that decreases the loss; factor after steps
 /// that decrease it in neither direction.
@@ -122,6 +122,8 @@ double total_loss(const Evaluation& at, Loss loss) {
 bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
                     std::size_t apart) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
+  const double enough =
+      loss == Loss::robust ? kLeastGain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
   for (int round = 0; round < kMostRounds; ++round) {
     if (!along) along = slopes(best.effects, best.train);
     if (round >= kLeastRounds &&
@@ -133,16 +135,18 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
     const Flat flat = flatten(best.effects);
     double gained = 0;
     const auto groups = step_groups(best.effects, apart);
-    for (std::size_t group = 0; group < groups.size() && gained == 0; ++group) {
+    for (std::size_t group = 0; group < groups.size() && gained < enough; ++group) {
       const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
-      for (int attempt = 0; attempt < attempts && gained == 0; ++attempt) {
+      bool moves = false;
+      for (int attempt = 0; attempt < attempts && !moves; ++attempt) {
         const VectorXd step = bounded_step(both.curvature, gradient, flat, damping, groups[group]);
         if (!step.allFinite() || step.norm() == 0) break;
         const Effects tried = moved(best.effects, step);
         Evaluation found = evaluate(train_, tried, best.train);
         const double now = total_loss(found, loss);
         if (now < least) {
-          gained = least - now;
+          moves = true;
+          gained += least - now;
           least = now;
           best.effects = tried;
           best.train = std::move(found);
@@ -152,9 +156,9 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
           damping = std::max(damping, 1e-4) * 8;
         }
       }
-      if (gained == 0) damping = kFirstDamping;
+      if (gained < enough) damping = kFirstDamping;
     }
-    if (gained < (loss == Loss::robust ? kLeastGain : kLeastRelativeGain * least)) break;
+    if (gained < enough) break;
   }
   return true;
 }

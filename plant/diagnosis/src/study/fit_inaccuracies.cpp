@@ -40,6 +40,7 @@ void Study::estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effe
   Index own = 0;
   for (const Effect& effect : fitted.effects) own += static_cast<Index>(effect.values.size());
   fitted.left_out = left_out(leading(both, own));
+  for (double& block : fitted.left_out) block /= kLossPerDeviance;
   // An inaccuracy at its bound is not a free value.
   std::vector<Index> free(static_cast<std::size_t>(own));
   std::iota(free.begin(), free.end(), 0);

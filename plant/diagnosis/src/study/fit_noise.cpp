@@ -56,6 +56,7 @@ Nuisance Study::nuisance_in(const Body& body, const Evaluation& at, const Replay
 
 Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
   Blocks deviance = at.blocks;
+  for (double& block : deviance) block /= kLossPerDeviance;
   const auto add = [&deviance](std::size_t first, const Blocks& more) {
     for (std::size_t i = 0; i < more.size(); ++i) deviance[first + i] += more[i];
   };
@@ -139,7 +140,7 @@ Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
   Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostNoiseRounds; ++round) {
-    whiten_training(round == 0 ? first_fit.first_nuisance : nuisance_of(last, {}, last.nuisance));
+    whiten_training(round == 0 ? first_fit.first_nuisance : nuisance_of(last, last.nuisance, last.nuisance));
     last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
     fit_inaccuracies(last);
     judge_by_likelihood(last);

@@ -131,12 +131,12 @@ void Study::learn_disturbance(const Effects& effects) {
 
 void Study::calibrate() {
   double least = sum(deviance_of(train_, base_train_));
-  for (int round = 0; round < kMostNoiseRounds && !inaccuracies_.empty(); ++round) {
+  for (int round = 0; round < kMostNoiseRounds; ++round) {
     const Nuisance before = nuisance();
     Fitted base;
     base.train = base_train_;
     fit_inaccuracies(base);
-    whiten_with(nuisance_of(base));
+    whiten_with(nuisance_of(base, {}, nuisance()));
     const double gained = least - sum(deviance_of(train_, base_train_));
     if (gained < 0) whiten_with(before);
     if (gained < kWorthARound) break;

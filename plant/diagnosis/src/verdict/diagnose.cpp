@@ -150,8 +150,9 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const StatedAccuracy& 
        insignificant(held_out_loss_p_value(found.best, found.base, held_out.nats), candidates));
   if (matters && !insignificant_effect && proof.outcome != Proof::Outcome::no_consequence) return false;
   Hypotheses base = found;
-  base.best = found.base;
   study.whiten_with(found.base.nuisance);
+  base.base.train = study.base_train();
+  base.best = base.base;
   const bool nothing = judge(study, base, base.best, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
   study.whiten_with(found.best.nuisance);
   return nothing;
