@@ -28,6 +28,13 @@ std::vector<runtime::Write> bridge_writes() {
           {&topics::reply.description, "answers to requests"}};
 }
 
+namespace {
+
+/// The bridge ignores commands for older ticks. A command is stale long before.
+constexpr double kNewestCommands_s = 1;
+
+}  // namespace
+
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     : node_{context.node},
       clock_{context.clock},
@@ -42,6 +49,7 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       states_{context.ports.output(topics::state)},
       commands_{context.ports.loop_input(topics::command)},
       requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}},
+      ticks_{kNewestCommands_s, context.rig.period_s},
       drives_{context.rig.drives} {
   for (std::size_t i = 0; i < kDrives; ++i) {
     const auto& encoder = context.rig.encoders[i];
@@ -68,7 +76,7 @@ std::string Bridge::waiting_for() const {
 }
 
 bool Bridge::poll(std::int64_t now_ns) {
-  take_requests();
+  take_requests(now_ns);
   take_commands(now_ns);
   node_.beat(now_ns, ports_, counts_);
   if (!tick_is_due(now_ns)) return false;
@@ -110,7 +118,7 @@ void Bridge::take_commands(std::int64_t now_ns) {
   std::size_t budget = runtime::LoopReader<msg::Command>::kMostPerPoll;
   while (const auto taken = commands_->take(now_ns, budget)) {
     const auto* command = &taken->sample;
-    if (!tick_ || command->header.tick > *tick_) {  // a command for a tick of an earlier bridge
+    if (!ticks_.time_of(command->header)) {  // the answer to a state of an earlier bridge, or a very old one
       ++counts_.late;
       continue;
     }
@@ -129,9 +137,9 @@ void Bridge::take_commands(std::int64_t now_ns) {
   }
 }
 
-void Bridge::take_requests() {
+void Bridge::take_requests(std::int64_t now_ns) {
   requests_.receive();
-  while (const auto request = requests_.take_due(tick_.value_or(0) + 1)) {
+  while (const auto request = requests_.take_due(tick_.value_or(0) + 1, now_ns)) {
     if (request->kind == crane_REQUEST_ADVANCE) {
       until_tick_ = std::max(until_tick_, request->until_tick);
     } else {
@@ -162,6 +170,8 @@ void Bridge::tick(const Inputs& inputs, std::int64_t now_ns) {
   now.second_writer = ports_.disputed(now_ns);
   apply(last_line_.decide(command_, next, now));
   auto sample = state(inputs, measured, sample_time_ns);
+  ticks_.add(sample.header, now_ns);
+  requests_.stepped(sample.header, now_ns);
   states_.publish(sample);
   ++counts_.completed;
   report_latch();

@@ -1,6 +1,12 @@
 #include "black_box/incident_file.hpp"
 
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <ctime>
 #include <regex>
 #include <vector>
@@ -27,19 +33,33 @@ recording::Metadata trigger_of(const Incident& incident) {
           {"faults", std::to_string(incident.faults)}};
 }
 
+/// Gives the file the first free name.
+std::filesystem::path published(const std::filesystem::path& unfinished, const std::filesystem::path& named) {
+  for (int number = 1;; ++number) {
+    const std::string file =
+        named.string() + (number > 1 ? "_" + std::to_string(number) : std::string{}) + ".mcap";
+    if (::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0) return file;
+    if (errno != EEXIST)
+      throw recording::WriteError(file + ": cannot write: " + std::generic_category().message(errno));
+  }
+}
+
+/// True if the process that was writing the file has ended.
+bool is_abandoned(const std::string& pid) { return ::kill(std::stoi(pid), 0) != 0 && errno == ESRCH; }
+
 }  // namespace
 
 std::string file_name_of(const Incident& incident) {
   std::string cause = incident.first.what;
   for (char& c : cause)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return utc(incident.first.at_ns) + "_" + cause + ".mcap";
+  return utc(incident.first.at_ns) + "_" + cause;
 }
 
 std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
                                      const Origin& origin, const recording::Metadata& processes) {
-  const auto file = directory / file_name_of(incident);
-  const std::filesystem::path unfinished = file.string() + ".part";
+  const auto named = directory / file_name_of(incident);
+  const std::filesystem::path unfinished = named.string() + "." + std::to_string(::getpid()) + ".part";
   recording::McapWriter writer{unfinished, {.sync = true}};
   const auto channels = recording::add_topic_channels(writer);
   writer.metadata("crane", origin.crane);
@@ -53,18 +73,21 @@ std::filesystem::path write_incident(const std::filesystem::path& directory, con
         origin.rig_name, "application/toml", incident.first.at_ns,
         std::span{reinterpret_cast<const std::uint8_t*>(origin.rig_text.data()), origin.rig_text.size()});
   writer.close();
-  std::error_code error;
-  std::filesystem::rename(unfinished, file, error);
-  if (error) throw recording::WriteError(file.string() + ": cannot write: " + error.message());
-  return file;
+  return published(unfinished, named);
 }
 
 void keep_newest(const std::filesystem::path& directory, std::size_t files) noexcept {
-  static const std::regex kOurs{R"(\d{8}T\d{6}Z_\w+\.mcap(\.part)?)"};
+  static const std::regex kOurs{R"(\d{8}T\d{6}Z_\w+\.mcap)"},
+      kUnfinished{R"(\d{8}T\d{6}Z_\w+\.(\d{1,9})\.part)"};
   std::error_code error;
   std::vector<std::filesystem::path> ours;
-  for (const auto& entry : std::filesystem::directory_iterator{directory, error})
-    if (std::regex_match(entry.path().filename().string(), kOurs)) ours.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator{directory, error}) {
+    const std::string name = entry.path().filename().string();
+    std::smatch unfinished;
+    if (std::regex_match(name, kOurs)) ours.push_back(entry.path());
+    if (std::regex_match(name, unfinished, kUnfinished) && is_abandoned(unfinished[1]))
+      std::filesystem::remove(entry.path(), error);
+  }
   if (ours.size() <= files) return;
   std::ranges::sort(ours);
   for (const auto& file : std::span{ours}.first(ours.size() - files)) std::filesystem::remove(file, error);

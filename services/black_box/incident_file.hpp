@@ -13,14 +13,17 @@ struct Origin {
   std::string rig_name, rig_text;  ///< rig file, which is attached; empty: unknown
 };
 
-/// "20261125T035501Z_SWING_LIMIT.mcap". The alphabetical order is the order of time.
+/// "20261125T035501Z_SWING_LIMIT", without extension. The alphabetical order is the order of time.
 [[nodiscard]] std::string file_name_of(const Incident& incident);
 
-/// Writes the file, which appears when it is complete. @return its path. @throws recording::WriteError
+/// Writes the file, which appears when it is complete. If a file of this name exists (a second part of one
+/// fault, or another crane), the file gets the first free name of NAME_2.mcap, NAME_3.mcap, ...
+/// @return its path. @throws recording::WriteError
 std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
                                      const Origin& origin, const recording::Metadata& processes);
 
-/// Deletes the oldest files of the black box; other files are not deleted.
+/// Deletes the oldest files of the black box, and unfinished files of processes that have ended; other files
+/// are not deleted.
 void keep_newest(const std::filesystem::path& directory, std::size_t files) noexcept;
 
 }  // namespace crane::black_box

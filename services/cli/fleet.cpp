@@ -125,7 +125,7 @@ void Fleet::take_statuses(std::int64_t now_ns) {
 /// move stays stopped and accepts no move.
 void Fleet::operate(Operator& by, FleetCrane& crane, std::int64_t now_ns) const {
   constexpr std::array kInTurn{crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_MOVE};
-  while (const auto status = by.supervisor.take()) by.next.seen_tick = status->header.tick;
+  while (const auto status = by.supervisor.take()) by.next.seen = status->header;
   by.client.receive();
   for (const auto id : by.moves_sent)
     if (const auto reply = by.client.take_reply(id, crane_SOURCE_SUPERVISOR); reply && reply->accepted)

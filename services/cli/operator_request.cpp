@@ -70,7 +70,7 @@ class Conversation {
   void hear_supervisor() {
     while (const auto status = supervisor_.take()) {
       heard_supervisor_ = true;
-      wanted_.seen_tick = status->header.tick;
+      wanted_.seen = status->header;
     }
   }
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }

@@ -72,8 +72,8 @@ void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   constexpr std::size_t kRepetitionsPerWriter = 4;
   try {
     if (!pending.ids.empty() && pending.ids.size() % kRepetitionsPerWriter == 0) client_.renew_writer();
-    while (const auto status = statuses_.take()) seen_tick_ = status->header.tick;
-    pending.wanted.seen_tick = seen_tick_;
+    while (const auto status = statuses_.take()) seen_ = status->header;
+    pending.wanted.seen = seen_;
     pending.ids.push_back(client_.send(pending.wanted));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {

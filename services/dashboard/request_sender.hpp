@@ -41,7 +41,7 @@ class RequestSender {
 
   stack::OperatorClient client_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
-  std::uint64_t seen_tick_ = 0;  ///< of the newest status; 0: none has arrived
+  msg::Header seen_{};  ///< of the newest status; 0: none has arrived
   std::list<Pending> pending_;
 };
 

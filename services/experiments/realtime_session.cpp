@@ -74,7 +74,7 @@ void RealtimeSession::wait(std::chrono::nanoseconds duration) {
 std::string RealtimeSession::refusal_of(const stack::OperatorRequest& wanted, const std::string& what) {
   take(std::chrono::nanoseconds{0});
   auto seen = wanted;
-  if (state_) seen.seen_tick = state_->header.tick;
+  if (status_) seen.seen = status_->header;
   const auto id = operator_.send(seen);
   std::optional<msg::Reply> reply;
   if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },

@@ -70,10 +70,20 @@ class Reader {
   }
 
  private:
+  /// A process is silent after seconds. In a longer gap of the recording, for example after a step of the
+  /// clock, further polls find nothing.
   void poll_until(std::int64_t now_ns) {
-    constexpr std::int64_t kEvery_ns = 100'000'000;
+    constexpr std::int64_t kLongestGap_ns = 60'000'000'000;
     if (polled_ns_ == 0) polled_ns_ = now_ns;
-    for (; polled_ns_ + kEvery_ns <= now_ns; polled_ns_ += kEvery_ns)
+    if (now_ns <= polled_ns_) return;
+    const auto gap_ns = static_cast<std::uint64_t>(now_ns) - static_cast<std::uint64_t>(polled_ns_);
+    const bool in_steps = gap_ns <= kLongestGap_ns;
+    poll_for(in_steps ? now_ns - polled_ns_ : kLongestGap_ns);
+    if (!in_steps) polled_ns_ = now_ns;
+  }
+  void poll_for(std::int64_t duration_ns) {
+    constexpr std::int64_t kEvery_ns = 100'000'000;
+    for (; duration_ns >= kEvery_ns; duration_ns -= kEvery_ns, polled_ns_ += kEvery_ns)
       (void)timeline_.poll(polled_ns_, polled_ns_, traffic_, history_);
   }
 

@@ -26,7 +26,7 @@ OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t 
 
 std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
   msg::Request request{};
-  request.header.tick = wanted.seen_tick;
+  request.header = runtime::answer_to(wanted.seen);
   request.id = next_id_++;
   runtime::assign(request.client, client_);
   request.kind = wanted.kind;

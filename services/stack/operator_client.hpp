@@ -23,9 +23,9 @@ struct OperatorRequest {
   std::vector<crane_Sine> sines{};                       ///< follow: at most four
   double duration_s = 0;                                 ///< follow
   crane_OperatingMode mode = crane_MODE_SEMI_AUTOMATIC;  ///< mode
-  /// Tick of the newest sample that the operator has seen. In real time the supervisor refuses a request
-  /// whose operator has not seen the crane for 2 s, or never (0), unless the request stops the crane.
-  std::uint64_t seen_tick = 0;
+  /// Header of the newest crane/supervisor that the operator has seen. In real time the supervisor refuses a
+  /// request whose operator has not seen the crane within the last 2 s, unless the request stops the crane.
+  msg::Header seen{};
 };
 
 /// Request to follow an excitation.

@@ -78,7 +78,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     input.now_s = seconds(sampled_ns);
     input.tick = tick;
     input.state_arrived = state != nullptr;
-    if (state != nullptr) input.sample = sample_of(*state);
+    if (state != nullptr) {
+      input.sample = sample_of(*state);
+      requests_.stepped(state->header, now_ns_);
+    }
     if (demand != nullptr) {
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
@@ -179,7 +182,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void step(TickInput& input) {
     input.second_writer = input.second_writer || ports().disputed(now_ns_) || sole_.disputed(now_ns_);
     input.configuration_differs = configuration() == 0;
-    const auto due = collect(input);
+    auto due = collect(input);
+    refuse_beside_stops(due, input);
     input.speed_share = rule_of(mode_).speed_share;
     const auto output = supervisor::step(limits_, input, memory_);
     for (const auto& one : due) answer(one, output, input.now_s);
@@ -190,10 +194,31 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     statuses_.publish(status_of(last_header_, output, limits_, move_,
                                 limited_stick(mode_, jogs_.session().deflection(input.now_s)), mode_));
     sole_.stepped(output.state);
+    const bool stopped = output.state != announced_ && is_stopped(output.state);
+    if (stopped || std::ranges::any_of(due, is_stop)) requests_.stopped(input.tick);
     if (realtime_ && !limits_.machine.known && output.state == State::arming && announced_ != State::arming)
       announce_unchecked(node());
     if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);
     announced_ = output.state;
+  }
+
+  static bool is_stop(const DueRequest& due) { return runtime::RequestInbox::stops(due.request); }
+  /// States that a stop leads to.
+  static bool is_stopped(State state) {
+    return state == State::locked || state == State::estop || state == State::fault ||
+           state == State::stop_c0 || state == State::stop_c1;
+  }
+
+  /// A request that arrives in the same tick as a stop was sent without knowledge of the stop.
+  void refuse_beside_stops(std::vector<DueRequest>& due, TickInput& input) {
+    if (std::ranges::none_of(due, is_stop)) return;
+    std::erase_if(due, [&](const DueRequest& one) {
+      if (is_stop(one)) return false;
+      input.requests[static_cast<std::size_t>(*request_of(one.request.kind))] = false;
+      reply(one.request, false,
+            "a stop was requested in the same tick: look at the crane and repeat the request");
+      return true;
+    });
   }
 
   /// Requests that are due at this tick. Requests with invalid content are refused here.
@@ -203,7 +228,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     // The planner starts its search for the path of an accepted move from the sample of the same tick.
     const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
     OncePerTick once;
-    while (const auto request = requests_.take_due(input.tick, &sender)) {
+    while (const auto request = requests_.take_due(input.tick, now_ns_, &sender)) {
       auto problem = once.problem_of(*request, limits_);
       if (problem.empty()) problem = problem_in_mode(*request, mode_, position);
       if (problem.empty()) problem = problem_at(*request, limits_, position);

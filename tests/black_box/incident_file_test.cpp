@@ -28,7 +28,8 @@ TEST(IncidentFile, HasSamplesTriggerProcessesAndTheRigFile) {
                      {.crane = {{"version", "1"}}, .rig_name = "rig.toml", .rig_text = "name = 1"},
                      {{"supervisor", "1, cyclone"}});
   EXPECT_EQ(file.filename(), "20261125T040458Z_LATCH_encoder_jump.mcap");
-  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator{directory / ""}, {}), 1)
+      << "no unfinished file";
   EXPECT_EQ(recording::check(file).messages, 1U);
   recording::McapReader reader{file};
   ASSERT_EQ(reader.attachments().size(), 1U);
@@ -37,6 +38,29 @@ TEST(IncidentFile, HasSamplesTriggerProcessesAndTheRigFile) {
   ASSERT_EQ(metadata.size(), 3U);
   EXPECT_EQ(metadata[1].entries.at("first_cause"), "LATCH_encoder jump");
   EXPECT_EQ(metadata[2].entries.at("supervisor"), "1, cyclone");
+}
+
+/// A fault that lasts longer than one file, or a second crane that stops in the same second.
+TEST(IncidentFile, DoesNotReplaceAnotherFileOfItsName) {
+  const recording::TemporaryDirectory directory;
+  auto second = an_incident();
+  second.samples.clear();
+  const auto first_file = write_incident(directory / "", an_incident(), {}, {});
+  const auto second_file = write_incident(directory / "", second, {}, {});
+  EXPECT_EQ(second_file.filename(), "20261125T040458Z_LATCH_encoder_jump_2.mcap");
+  EXPECT_EQ(recording::check(first_file).messages, 1U);
+  EXPECT_EQ(recording::check(second_file).messages, 0U);
+}
+
+TEST(IncidentFile, OfAnotherProcessThatIsStillWritingIsKept) {
+  const recording::TemporaryDirectory directory;
+  const auto unfinished = [](pid_t pid) { return "20260101T000000Z_A." + std::to_string(pid) + ".part"; };
+  constexpr pid_t kNoProcess = 999'999'999;
+  recording::put_contents(directory / unfinished(getpid()), "");
+  recording::put_contents(directory / unfinished(kNoProcess), "");
+  keep_newest(directory / "", 2);
+  EXPECT_TRUE(std::filesystem::exists(directory / unfinished(getpid())));
+  EXPECT_FALSE(std::filesystem::exists(directory / unfinished(kNoProcess)));
 }
 
 TEST(IncidentFile, KeepsOnlyTheNewestOfItsOwnFiles) {

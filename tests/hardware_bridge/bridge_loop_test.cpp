@@ -1,6 +1,7 @@
 // Commands that the loop of the bridge accepts, and its reports about the relay.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <utility>
 
 #include "crane/boards/emulated_board.hpp"
@@ -47,9 +48,15 @@ class BridgeLoop : public testing::Test {
     bridge_.poll(now_ns);
     const auto state = states_.take();
     EXPECT_TRUE(state && state->header.tick == number);
+    if (state) latched_ns_[number] = state->header.sample_time_ns;
     return state.value_or(msg::State{});
   }
-  void publish(const msg::Command& command) { EXPECT_TRUE(commands_.publish(command)); }
+  /// Publishes the command with the time at which its tick was latched in this run.
+  void publish(msg::Command command) {
+    command.header.sample_time_ns = latched_ns_[command.header.tick];
+    EXPECT_TRUE(commands_.publish(command));
+  }
+  void publish_as_recorded(const msg::Command& command) { EXPECT_TRUE(commands_.publish(command)); }
   /// Ticks 0 to kClosed - 1 with commands: quiet at first, then with permission.
   void run_with_closed_relay() {
     for (std::uint64_t number = 0; number < kClosed; ++number) {
@@ -68,6 +75,7 @@ class BridgeLoop : public testing::Test {
   }
 
  private:
+  std::map<std::uint64_t, std::int64_t> latched_ns_;
   configuration::Rig rig_ = configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus own_{runtime::memory_options(network_, "bridge", crane_SOURCE_BRIDGE)};
@@ -94,6 +102,19 @@ TEST_F(BridgeLoop, ACommandForAnEarlierBridgeIsIgnored) {
     ASSERT_EQ(state.applied_v[0], 0);
     ASSERT_EQ(state.applied_command_tick, number == 0 ? 0 : number - 1);
     publish(command_of(number, 0));
+  }
+}
+
+/// DDS Security does not prevent that recorded commands are sent again to a bridge that has restarted.
+TEST_F(BridgeLoop, ARecordedCommandOfAnEarlierRunIsIgnored) {
+  for (std::uint64_t number = 0; number < 3 * kQuiet_ticks; ++number) {
+    const auto state = tick(number);
+    ASSERT_EQ(state.applied_v[0], 0) << number;
+    ASSERT_TRUE(state.brake_closed[0] && state.watchdog_dropped) << number;
+    auto recorded = command_of(number, number < kQuiet_ticks ? 0 : 5);
+    recorded.watchdog_permission = number >= kQuiet_ticks;
+    recorded.header.sample_time_ns = state.header.sample_time_ns - 86'400'000'000'000;
+    publish_as_recorded(recorded);
   }
 }
 

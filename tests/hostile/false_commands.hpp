@@ -9,11 +9,9 @@ namespace crane::hostile {
 class FalseCommands {
  public:
   explicit FalseCommands(const Packet& model) : writer_{model, topics::command} {}
-  void command(std::uint64_t tick) {
+  void command(const msg::Header& state) {
     auto command = writer_.model();
-    const auto header = command.header;
-    arm_and_push(command, tick, ++ticks_);
-    command.header.sample_time_ns = header.sample_time_ns;
+    arm_and_push(command, state, ++ticks_);
     writer_.send(command);
   }
   [[nodiscard]] std::uint64_t sent() const { return writer_.sent(); }

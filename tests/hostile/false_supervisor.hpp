@@ -10,11 +10,11 @@ namespace crane::hostile {
 
 /// Commands of a supervisor that arms: permission, relay, brakes, then volts that rise no faster than
 /// permitted.
-inline void arm_and_push(msg::Command& command, std::uint64_t tick, int count) {
+inline void arm_and_push(msg::Command& command, const msg::Header& state, int count) {
   constexpr int kPermission = 3, kRelease = 25, kPush = 30;
   constexpr double kStep_v = 0.2, kMost_v = 3;
   command = {};
-  command.header.tick = tick;
+  command.header = runtime::answer_to(state);
   command.watchdog_permission = count > kPermission;
   for (std::size_t i = 0; i < 2; ++i) {
     command.brake_release[i] = count > kRelease;
@@ -32,7 +32,7 @@ class FalseSupervisor {
   void speak() {
     bus_.wait(std::chrono::milliseconds{2});
     while (const auto state = states_.take()) {
-      arm_and_push(command_, state->header.tick, ++spoken_);
+      arm_and_push(command_, state->header, ++spoken_);
       (void)commands_.publish(command_);
       seen_.push_back(*state);
     }

@@ -166,7 +166,7 @@ class BlindSupervisor : public DiscoveryAttack, public testing::WithParamInterfa
                                 ? end_of_participant(prefix)
                                 : heartbeat(prefix, writer, number += kAhead));
       bus.wait(2ms);
-      while (const auto heard = states.take()) impostor.command(heard->header.tick);
+      while (const auto heard = states.take()) impostor.command(heard->header);
       stack_->listen(0ms);
     }
   }

@@ -41,9 +41,9 @@ class Stick {
   [[nodiscard]] bool connected() const {
     return requests_.matched() >= 2 && replies_.matched() >= 2 && jogs_.matched() >= 1;
   }
-  void request(std::uint64_t id, std::uint64_t tick) {
+  void request(std::uint64_t id, const msg::Header& seen) {
     msg::Request request{};
-    request.header.tick = tick;
+    request.header = runtime::answer_to(seen);
     request.id = id;
     runtime::assign(request.client, kClient);
     request.kind = crane_REQUEST_JOG;
@@ -83,7 +83,7 @@ class JogAttack : public testing::TestWithParam<std::string> {
     EXPECT_TRUE(stack_.until([&] { return operator_->connected() && stranger_.connected(); }, 8s));
   }
   void begin_session(std::uint64_t id) {
-    operator_->request(id, tick());
+    operator_->request(id, stack_.session().status()->header);
     ASSERT_TRUE(stack_.until([&] { return operator_->accepted(id); }, 2s));
     stack_.forget();
   }
@@ -179,7 +179,7 @@ TEST_P(JogAttack, WithSamplesOfAnEndedSessionStartsNothing) {
 
 TEST_P(JogAttack, ByASecondOperatorEndsTheFirstSessionAndActsWithTheSecondRequestOnly) {
   begin_session(7);
-  stranger_.request(8, tick());
+  stranger_.request(8, stack_.session().status()->header);
   ASSERT_TRUE(stack_.until([&] { return stranger_.accepted(8); }, 2s));
   stack_.forget();
   attack_for(300ms, [&] {

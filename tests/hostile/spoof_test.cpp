@@ -131,7 +131,7 @@ TEST_F(Spoof, WithoutTheLedgerForgedPacketsEndTheSupervisorBeforeTheCraneMoves) 
   while (std::chrono::steady_clock::now() < end) {
     auto packet = ear.next(20ms);
     if (!packet || !ports.contains(packet->port())) continue;
-    if (const auto state = find(packet->message, topics::state)) impostor->command(state->sample.header.tick);
+    if (const auto state = find(packet->message, topics::state)) impostor->command(state->sample.header);
   }
   stack.listen(200ms);
   const auto& states = stack.observer().states();

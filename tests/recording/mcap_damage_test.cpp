@@ -150,6 +150,34 @@ TEST(HostileRecording, WhoseIndexNamesAChunkTwiceIsReadWithoutItsIndex) {
   EXPECT_TRUE(genuine);
 }
 
+TEST(HostileRecording, WhoseIndexNamesAMetadataRecordTwiceIsReadWithoutItsIndex) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "twice.mcap";
+  {
+    McapWriter writer{file};
+    writer.metadata("first", {{"number", "1"}});
+    writer.metadata("other", {{"number", "2"}});
+    writer.close();
+  }
+  std::string bytes = contents_of(file);
+  constexpr std::size_t kHead_bytes = 1 + 8 + 4;  // opcode, length of the record, length of its name
+  const auto place_of = [&](const char* name) {
+    const std::uint64_t offset = bytes.find(name) - kHead_bytes;
+    return std::string{reinterpret_cast<const char*>(&offset), sizeof offset};
+  };
+  const auto index = bytes.rfind(place_of("other"));
+  ASSERT_NE(index, std::string::npos);
+  bytes.replace(index, sizeof(std::uint64_t), place_of("first"));
+  constexpr std::size_t kMagic_bytes = 8, kCrc_bytes = 4;
+  bytes.replace(bytes.size() - kMagic_bytes - kCrc_bytes, kCrc_bytes, kCrc_bytes, '\0');  // 0: no CRC
+  put_contents(file, bytes);
+  McapReader reader{file};
+  EXPECT_FALSE(reader.indexed());
+  const auto metadata = reader.metadata();
+  ASSERT_EQ(metadata.size(), 2U);
+  EXPECT_EQ(metadata[1].entries.at("number"), "2");
+}
+
 TEST(CorruptedRecording, ReportsTheCrcOfTheDamagedChunkAndReadsTheOthers) {
   const TemporaryDirectory directory;
   const Chunked recording = chunked_recording(directory);

@@ -47,13 +47,13 @@ class LateStack {
     stack_.suspend(source, stack_.now_ns() + std::llround(seconds * 1e9));
   }
   void ask(stack::OperatorRequest wanted) {
-    wanted.seen_tick = newest_tick_;
+    wanted.seen = newest_;
     last_id_ = operator_.send(wanted);
   }
   /// Deflects the stick of the session that was requested last, for one tick.
   void deflect(double slew, bool engaged = true) {
     msg::Jog jog{};
-    jog.header.tick = newest_tick_;
+    jog.header.tick = newest_.tick;
     jog.request_id = last_id_;
     runtime::assign(jog.client, "operator");
     jog.engaged = engaged;
@@ -82,8 +82,9 @@ class LateStack {
     const auto index = static_cast<std::size_t>(
         std::ranges::find(topics::kAll, topic.name, &topics::Description::name) - topics::kAll.begin());
     now_ns_ = std::max(now_ns_ + 1, stack_.now_ns());
-    const auto tick = static_cast<const msg::Header*>(sample)->tick;
-    if (topic.name == topics::state.description.name) newest_tick_ = tick;
+    const auto& header = *static_cast<const msg::Header*>(sample);
+    const auto tick = header.tick;
+    if (topic.name == topics::supervisor.description.name) newest_ = header;
     const bool by_operator =
         topic.name == topics::request.description.name || topic.name == topics::jog.description.name;
     if (by_operator && misses_operators_) return;
@@ -103,7 +104,8 @@ class LateStack {
   bus::Bus bus_;
   stack::OperatorClient operator_;
   bus::Publisher<msg::Jog> jogs_;
-  std::uint64_t newest_tick_ = 0, last_id_ = 0;
+  msg::Header newest_{};  ///< of crane/supervisor
+  std::uint64_t last_id_ = 0;
   bool misses_operators_ = false, misses_first_step_ = false, loses_statuses_ = false;
   std::set<std::string_view> known_;  ///< topics of the supervisor with a sample
 };

@@ -18,17 +18,19 @@ class Inbox : public testing::Test {
     msg::Request request{};
     request.id = id;
     request.kind = kind;
-    request.header.tick = seen_tick_;
+    request.header = seen_;
     request.apply_tick = apply_tick;
     ASSERT_TRUE(requests_.publish(request));
   }
+  std::optional<msg::Request> due(std::uint64_t tick) { return inbox_.take_due(tick, now_ns_); }
   std::size_t refusals() {
     std::size_t count = 0;
     while (const auto reply = replies_.take()) count += reply->accepted ? 0 : 1;
     return count;
   }
 
-  std::uint64_t seen_tick_ = 0;
+  msg::Header seen_{};
+  std::int64_t now_ns_ = 0;
   Clock clock_;
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus operator_{memory_options(network_, "operator", crane_SOURCE_OPERATOR)};
@@ -65,27 +67,27 @@ TEST_F(Inbox, IgnoresRequestsOfAProcessThatMayNotWriteThem) {
   }
   send(2, 0);
   EXPECT_TRUE(inbox_.receive());
-  EXPECT_EQ(inbox_.take_due(0)->id, 2U);
-  EXPECT_FALSE(inbox_.take_due(0));
+  EXPECT_EQ(due(0)->id, 2U);
+  EXPECT_FALSE(due(0));
 }
 
 TEST_F(Inbox, ReturnsARequestAtItsTickAndNotBefore) {
   send(1, 20);
   send(2, 0);
   inbox_.receive();
-  EXPECT_EQ(inbox_.take_due(19)->id, 2U);
-  EXPECT_FALSE(inbox_.take_due(19));
-  EXPECT_EQ(inbox_.take_due(20)->id, 1U);
+  EXPECT_EQ(due(19)->id, 2U);
+  EXPECT_FALSE(due(19));
+  EXPECT_EQ(due(20)->id, 1U);
 }
 
 TEST_F(Inbox, RefusesARequestForATickThatIsHoursAhead) {
   send(1, ~std::uint64_t{0});
   inbox_.receive();
-  EXPECT_FALSE(inbox_.take_due(5));
+  EXPECT_FALSE(due(5));
   EXPECT_EQ(refusals(), 1U);
   send(2, 5 + RequestInbox::kFarthest_ticks);
   inbox_.receive();
-  EXPECT_FALSE(inbox_.take_due(5));
+  EXPECT_FALSE(due(5));
   EXPECT_EQ(refusals(), 0U);
 }
 
@@ -103,67 +105,110 @@ TEST_F(Inbox, AFloodOfScheduledRequestsDoesNotBlockAStop) {
   }
   send(2000, 0);
   inbox_.receive();
-  const auto stop = inbox_.take_due(1);
+  const auto stop = due(1);
   ASSERT_TRUE(stop);
   EXPECT_EQ(stop->id, 2000U);
 }
 
+/// An inbox of a supervisor whose tick k was latched at kBegin_ns + k periods.
 class InboxInRealTime : public Inbox {
  protected:
+  static constexpr std::int64_t kBegin_ns = 7'000'000'000, kPeriod_ns = 10'000'000;
+
   InboxInRealTime() : Inbox{Clock::realtime} {}
+
+  static msg::Header header_of(std::uint64_t tick, std::int64_t begin_ns = kBegin_ns) {
+    msg::Header header{};
+    header.tick = tick;
+    header.sample_time_ns = begin_ns + static_cast<std::int64_t>(tick) * kPeriod_ns;
+    return header;
+  }
+  void run_until(std::uint64_t tick) {
+    while (tick_ < tick) step();
+  }
+  void step() {
+    ++tick_;
+    now_ns_ = header_of(tick_).sample_time_ns;
+    inbox_.stepped(header_of(tick_), now_ns_);
+  }
+  /// @return true when a request of an operator who saw the tick `seen` is executed now
+  bool executes(const msg::Header& seen, crane_RequestKind kind = crane_REQUEST_ARM) {
+    seen_ = seen;
+    send(++id_, 0, kind);
+    inbox_.receive();
+    const bool executed = due(tick_).has_value();
+    EXPECT_EQ(refusals(), executed ? 0U : 1U);
+    return executed;
+  }
+
+  std::uint64_t tick_ = 0, id_ = 0;
 };
 
 TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOperatorHasLeft) {
+  run_until(1);
+  seen_ = header_of(1);
   send(1, 20, crane_REQUEST_ARM);
   inbox_.receive();
   EXPECT_EQ(refusals(), 1U);
-  for (std::uint64_t tick = 1; tick < 30; ++tick) EXPECT_FALSE(inbox_.take_due(tick));
+  for (; tick_ < 30; step()) EXPECT_FALSE(due(tick_));
 }
 
 /// A connection that was lost for some seconds delivers a request after its operator has given up.
 TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterItsOperatorSawTheCrane) {
-  constexpr std::uint64_t kSeen = 1000, kTwoSeconds = 200;
-  seen_tick_ = kSeen;
-  for (const auto tick : {kSeen - kTwoSeconds - 1, kSeen + kTwoSeconds + 1}) {
-    send(1, 0, crane_REQUEST_ARM);
-    inbox_.receive();
-    EXPECT_FALSE(inbox_.take_due(tick)) << tick;
-    EXPECT_EQ(refusals(), 1U);
-  }
-  for (const auto tick : {kSeen - kTwoSeconds, kSeen + kTwoSeconds}) {
-    send(2, 0, crane_REQUEST_ARM);
-    inbox_.receive();
-    EXPECT_TRUE(inbox_.take_due(tick)) << tick;
-  }
+  run_until(1000);
+  EXPECT_TRUE(executes(header_of(1000)));
+  EXPECT_TRUE(executes(header_of(800)));
+  EXPECT_FALSE(executes(header_of(799)));
+  EXPECT_FALSE(executes(header_of(1001))) << "a tick that has not begun";
+}
+
+/// A supervisor that was suspended finds the requests of the meantime in its queue.
+TEST_F(InboxInRealTime, CountsTheTimeInWhichNoTickArrives) {
+  run_until(1000);
+  now_ns_ += 2'000'000'000;
+  EXPECT_TRUE(executes(header_of(1000)));
+  now_ns_ += 1;
+  EXPECT_FALSE(executes(header_of(1000)));
+}
+
+/// DDS Security does not prevent that a recorded request is sent again to a supervisor that has restarted.
+TEST_F(InboxInRealTime, RefusesARequestOfAnEarlierRunWithTheNumberOfAPresentTick) {
+  run_until(500);
+  constexpr std::int64_t kYesterday_ns = kBegin_ns - 86'400'000'000'000;
+  for (const std::uint64_t tick : {450U, 500U}) EXPECT_FALSE(executes(header_of(tick, kYesterday_ns)));
+  EXPECT_TRUE(executes(header_of(450)));
+}
+
+TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorSawTheCraneBeforeItsLastStop) {
+  run_until(100);
+  inbox_.stopped(100);
+  run_until(150);
+  EXPECT_FALSE(executes(header_of(99)));
+  EXPECT_TRUE(executes(header_of(100)));
+  EXPECT_TRUE(executes(header_of(99), crane_REQUEST_STOP));
 }
 
 TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorNamesNoTick) {
-  seen_tick_ = 0;
-  send(1, 0, crane_REQUEST_ARM);
-  inbox_.receive();
-  EXPECT_FALSE(inbox_.take_due(1'000'000));
-  EXPECT_EQ(refusals(), 1U);
+  run_until(50);
+  EXPECT_FALSE(executes({}));
 }
 
 TEST_F(InboxInRealTime, AStopActsHoweverOldItIs) {
-  for (seen_tick_ = 0; seen_tick_ < 2; ++seen_tick_) {
-    send(1, 0);
-    inbox_.receive();
-    EXPECT_TRUE(inbox_.take_due(1'000'000));
-  }
+  run_until(1000);
+  for (std::uint64_t tick = 0; tick < 2; ++tick) EXPECT_TRUE(executes(header_of(tick), crane_REQUEST_STOP));
 }
 
 TEST_F(Inbox, InLockstepHasNoAgeLimitBecauseTimePassesOnlyWithTheTicks) {
-  seen_tick_ = 1;
+  seen_.tick = 1;
   send(1, 0, crane_REQUEST_ARM);
   inbox_.receive();
-  EXPECT_TRUE(inbox_.take_due(10'000));
+  EXPECT_TRUE(due(10'000));
 }
 
 TEST_F(InboxInRealTime, AStopForALaterTickActsAtOnce) {
   send(1, 500'000);
   inbox_.receive();
-  EXPECT_TRUE(inbox_.take_due(1));
+  EXPECT_TRUE(due(1));
   EXPECT_EQ(refusals(), 0U);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "crane/runtime/convert.hpp"
 #include "supervisor_in_real_time.hpp"
 
 namespace crane::supervisor {
@@ -29,9 +30,11 @@ class RunInRealTime : public SupervisorInRealTime {
     ticks(30);
     EXPECT_EQ(supervisor_state(), crane_STATE_RUN);
   }
-  void ask(crane_RequestKind kind) {
+  void ask(crane_RequestKind kind) { ask(kind, state_.header); }
+  /// @param seen  header of the sample that the operator has seen
+  void ask(crane_RequestKind kind, const msg::Header& seen) {
     msg::Request request{};
-    request.header.tick = tick_;
+    request.header = runtime::answer_to(seen);
     request.id = ++last_id_;
     request.kind = kind;
     request.selected[0] = true;
@@ -84,6 +87,38 @@ TEST_F(RunInRealTime, ALateStateDoesNotEndTheMove) {
   reference_.moving = false;
   ticks(1);
   EXPECT_EQ(supervisor_state(), crane_STATE_HOLD);
+}
+
+/// The network delays the requests of one host by more than a second. Another host stops the crane meanwhile.
+TEST_F(RunInRealTime, ARequestOfAnOperatorWhoSawTheCraneBeforeItsStopIsRefused) {
+  const auto before = state_.header;
+  ask(crane_REQUEST_ESTOP);
+  reference_.moving = false;
+  ticks(150);
+  ASSERT_EQ(supervisor_state(), crane_STATE_ESTOP);
+  ask(crane_REQUEST_RESET, before);
+  ticks(5);
+  EXPECT_EQ(supervisor_state(), crane_STATE_ESTOP);
+  ask(crane_REQUEST_RESET);
+  ticks(5);
+  EXPECT_EQ(supervisor_state(), crane_STATE_READY);
+}
+
+TEST_F(RunInRealTime, AStopHasPrecedenceOverTheOtherRequestsOfItsTick) {
+  ask(crane_REQUEST_ESTOP);
+  reference_.moving = false;
+  ticks(150);
+  ask(crane_REQUEST_RESET);
+  ask(crane_REQUEST_ESTOP);
+  ticks(5);
+  EXPECT_EQ(supervisor_state(), crane_STATE_ESTOP);
+  ask(crane_REQUEST_RESET);
+  ticks(5);
+  ASSERT_EQ(supervisor_state(), crane_STATE_READY);
+  ask(crane_REQUEST_ARM);
+  ask(crane_REQUEST_STOP);
+  ticks(5);
+  EXPECT_EQ(supervisor_state(), crane_STATE_LOCKED);
 }
 
 /// One input states another configuration (1), or states that one of its own inputs has another one (0).

@@ -36,7 +36,10 @@ class Stranger {
   [[nodiscard]] std::int64_t joined_ns() const { return joined_ns_; }
   /// Publishes the forged sample for the present tick and the next one.
   void speak() {
-    while (const auto sample = heard_.take()) forged_.header.tick = sample->header.tick;
+    while (const auto sample = heard_.take()) {
+      forged_.header.tick = sample->header.tick;
+      forged_.header.sample_time_ns = sample->header.sample_time_ns;
+    }
     for (int ahead = 0; ahead < 2; ++ahead, ++forged_.header.tick) EXPECT_TRUE(writer_->publish(forged_));
   }
 

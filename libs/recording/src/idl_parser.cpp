@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kMaxCount = 1U << 24U;  // largest array size and string bound
 // A recording may come from anywhere: a short text must not describe a type that fills stack or memory. The
 // types of crane.idl stay far below these limits.
-constexpr std::size_t kMaxModules = 32, kMaxFields = 4096, kMaxEnumerators = 256;
+constexpr std::size_t kMaxModules = 32, kMaxDepth = 32, kMaxFields = 4096, kMaxEnumerators = 256;
 constexpr std::uint64_t kMaxValues =
     65'536;  // elementary values of one type, including the elements of arrays
 
@@ -199,7 +199,10 @@ class Parser {
     const std::uint64_t each =
         field.structure == nullptr ? 1 : std::max<std::uint64_t>(field.structure->values, 1);
     of.values += field.count * each;
+    if (field.structure != nullptr) of.depth = std::max(of.depth, field.structure->depth + 1);
     of.fields.push_back(std::move(field));
+    if (of.depth > kMaxDepth)
+      fail_at(at, of.name + " contains more than " + std::to_string(kMaxDepth) + " nested structures");
     if (of.values > kMaxValues)
       fail_at(at, of.name + " has more than " + std::to_string(kMaxValues) + " values");
     if (of.fields.size() > kMaxFields)

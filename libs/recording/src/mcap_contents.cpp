@@ -83,7 +83,8 @@ std::string unpack(std::string_view packed, std::string_view compression, std::u
   if (compression != "zstd")
     throw FormatError("compression \"" + std::string{compression} + "\" is not supported");
   const unsigned long long declared = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  const bool known = declared != ZSTD_CONTENTSIZE_UNKNOWN && declared != ZSTD_CONTENTSIZE_ERROR;
+  if (declared == ZSTD_CONTENTSIZE_ERROR) throw FormatError("no zstd frame begins here");
+  const bool known = declared != ZSTD_CONTENTSIZE_UNKNOWN;
   if (size > kMaxChunk) throw FormatError("unpacked size " + std::to_string(size) + " is above 64 MiB");
   if (known && declared != size) throw FormatError("size does not match its content");
   std::string out(size, '\0');
@@ -94,10 +95,13 @@ std::string unpack(std::string_view packed, std::string_view compression, std::u
 }
 
 /// True when two entries of the index name the same bytes: a small file could then be read without end.
-bool overlap(std::vector<ChunkPlace> chunks) {
-  std::ranges::sort(chunks, {}, [](const ChunkPlace& chunk) { return chunk.place.offset; });
-  for (std::size_t i = 1; i < chunks.size(); ++i)
-    if (chunks[i].place.offset - chunks[i - 1].place.offset < chunks[i - 1].place.length) return true;
+bool overlap(const Contents& contents) {
+  std::vector<Place> places = contents.metadata;
+  places.insert(places.end(), contents.attachments.begin(), contents.attachments.end());
+  for (const ChunkPlace& chunk : contents.chunks) places.push_back(chunk.place);
+  std::ranges::sort(places, {}, &Place::offset);
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i].offset - places[i - 1].offset < places[i - 1].length) return true;
   return false;
 }
 
@@ -231,7 +235,7 @@ std::optional<Contents> read_index(const InputFile& file) {
   }
   // A writer may omit the chunk index; walk() then finds the chunks.
   if (contents.chunks.empty() && contents.message_count > 0) return std::nullopt;
-  if (overlap(contents.chunks)) return std::nullopt;
+  if (overlap(contents)) return std::nullopt;
   return contents;
 }
 

@@ -33,6 +33,7 @@ struct Structure {
   std::string name;  ///< full name: "crane::Header"
   std::vector<Field> fields{};
   std::uint64_t values = 0;  ///< elementary values, including the elements of arrays
+  std::size_t depth = 1;     ///< 1: no field is a structure
 };
 
 struct IdlTypes {

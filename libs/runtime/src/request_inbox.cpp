@@ -1,23 +1,13 @@
 #include "crane/runtime/request_inbox.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "crane/runtime/node.hpp"
 
 namespace crane::runtime {
-namespace {
-
-bool stops(const msg::Request& request) {
-  return request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||
-         request.kind == crane_REQUEST_DISARM;
-}
-
-}  // namespace
-
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
     : schedules_{context.clock != Clock::realtime},
-      longest_age_ticks_{static_cast<std::uint64_t>(std::llround(kLongestAge_s / context.rig.period_s))},
+      ticks_{kLongestAge_s, context.rig.period_s},
       requests_{context.ports.input(topics::request)},
       replies_{context.ports.output(topics::reply)},
       kinds_{kinds} {}
@@ -50,20 +40,30 @@ bool RequestInbox::receive() {
   return any;
 }
 
-/// A lost connection delays a request until the middleware can send it again, at most for the lease.
-bool RequestInbox::is_old(const msg::Request& request, std::uint64_t tick) const {
-  const auto seen = request.header.tick;
-  if (schedules_ || stops(request)) return false;
-  return (tick > seen ? tick - seen : seen - tick) > longest_age_ticks_;
+bool RequestInbox::stops(const msg::Request& request) {
+  return request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||
+         request.kind == crane_REQUEST_DISARM;
 }
 
-void RequestInbox::refuse_untimely(std::uint64_t tick) {
+/// A lost connection delays a request until the middleware can send it again, at most for the lease. Another
+/// program on the network can record a request, encrypted or not, and send it again in a later run.
+std::string_view RequestInbox::obsolete_because(const msg::Request& request, std::int64_t now_ns) const {
+  constexpr auto kLongestAge_ns = static_cast<std::int64_t>(kLongestAge_s * 1e9);
+  if (schedules_ || stops(request)) return "";
+  const auto seen_ns = ticks_.time_of(request.header);
+  if (!seen_ns || now_ns - *seen_ns > kLongestAge_ns)
+    return "its operator has not seen the crane within the last 2 s (header.tick and header.sample_time_ns "
+           "are not those of a recent crane/supervisor): repeat the request";
+  if (request.header.tick < stopped_tick_)
+    return "the crane has stopped since the operator saw it: look at the crane and repeat the request";
+  return "";
+}
+
+void RequestInbox::refuse_untimely(std::uint64_t tick, std::int64_t now_ns) {
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     const auto& request = waiting.request;
-    if (is_old(request, tick)) {
-      reply(
-          request, request.header, false,
-          "the request has arrived more than 2 s after its operator saw the crane (header.tick): repeat it");
+    if (const auto reason = obsolete_because(request, now_ns); !reason.empty()) {
+      reply(request, request.header, false, reason);
       return true;
     }
     const bool too_late = request.apply_tick > tick && request.apply_tick - tick > kFarthest_ticks;
@@ -72,8 +72,9 @@ void RequestInbox::refuse_untimely(std::uint64_t tick) {
   });
 }
 
-std::optional<msg::Request> RequestInbox::take_due(std::uint64_t tick, bus::ParticipantId* sender) {
-  refuse_untimely(tick);
+std::optional<msg::Request> RequestInbox::take_due(std::uint64_t tick, std::int64_t now_ns,
+                                                   bus::ParticipantId* sender) {
+  refuse_untimely(tick, now_ns);
   const auto due = std::find_if(waiting_.begin(), waiting_.end(),
                                 [tick](const Waiting& w) { return w.request.apply_tick <= tick; });
   if (due == waiting_.end()) return std::nullopt;

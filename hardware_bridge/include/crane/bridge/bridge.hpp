@@ -39,7 +39,7 @@ class Bridge : public runtime::Component {
  private:
   [[nodiscard]] bool tick_is_due(std::int64_t now_ns);
   void take_commands(std::int64_t now_ns);
-  void take_requests();
+  void take_requests(std::int64_t now_ns);
   [[nodiscard]] Inputs latch(std::int64_t& now_ns);
   void tick(const Inputs& inputs, std::int64_t now_ns);
   void apply(Outputs outputs);
@@ -65,6 +65,7 @@ class Bridge : public runtime::Component {
   runtime::Output<msg::State> states_;
   std::shared_ptr<runtime::LoopReader<msg::Command>> commands_;
   runtime::RequestInbox requests_;
+  runtime::RecentTicks ticks_;  ///< published
   runtime::JoinCounts counts_;
   std::optional<CommandView> command_;
   std::optional<std::uint64_t> tick_;  ///< last published tick

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crane/runtime/component.hpp"
+#include "crane/runtime/recent_ticks.hpp"
 
 namespace crane::runtime {
 
@@ -20,9 +21,8 @@ class RequestInbox {
   static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
-  /// In real time, a request whose header.tick differs by more than this from the present tick is refused:
-  /// the operator tools wait as long for an answer. Afterwards their operator does not expect a motion. A
-  /// sender that leaves header.tick at 0 moves nothing later than 2 s after the start.
+  /// In real time, a request is refused if its operator saw the crane longer ago: the operator tools wait as
+  /// long for an answer. Afterwards their operator does not expect a motion.
   static constexpr double kLongestAge_s = 2;
 
   /// @param kinds  kinds of request that this process executes; it ignores all others
@@ -36,11 +36,19 @@ class RequestInbox {
   /// at once.
   /// @return true when a request arrived
   bool receive();
+  /// Notes a tick of this run. @param now_ns  its local time
+  void stepped(const msg::Header& header, std::int64_t now_ns) { ticks_.add(header, now_ns); }
+  /// In real time, refuses all requests from now on whose operator has not seen this tick or a later one,
+  /// except those that stop the crane: the crane has stopped.
+  void stopped(std::uint64_t tick) { stopped_tick_ = tick; }
+  /// True if the request stops the crane.
+  [[nodiscard]] static bool stops(const msg::Request& request);
   /// @param sender  participant that sent the request
   /// @return the next request that is due at `tick`, in the order of arrival; nothing when there is none.
-  ///   Refuses requests that are due later than kFarthest_ticks after `tick`, and in real time requests older
-  ///   than kLongestAge_s that do not stop the crane
-  [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick,
+  ///   Refuses requests that are due later than kFarthest_ticks after `tick`. In real time, refuses a request
+  ///   that does not stop the crane unless its header has the tick and the sample time of a tick of this run
+  ///   (stepped()) that is not older than kLongestAge_s and not before the last stop.
+  [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick, std::int64_t now_ns,
                                                      bus::ParticipantId* sender = nullptr);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);
 
@@ -49,11 +57,13 @@ class RequestInbox {
     msg::Request request;
     bus::ParticipantId sender;
   };
-  [[nodiscard]] bool is_old(const msg::Request& request, std::uint64_t tick) const;
-  void refuse_untimely(std::uint64_t tick);
+  /// Why the request comes too late; empty: it does not.
+  [[nodiscard]] std::string_view obsolete_because(const msg::Request& request, std::int64_t now_ns) const;
+  void refuse_untimely(std::uint64_t tick, std::int64_t now_ns);
 
   bool schedules_;  ///< lockstep: requests may wait for their tick
-  std::uint64_t longest_age_ticks_;
+  RecentTicks ticks_;
+  std::uint64_t stopped_tick_ = 0;  ///< tick of the last stop
   bus::Subscriber<msg::Request> requests_;
   Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
