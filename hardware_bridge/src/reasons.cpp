@@ -27,13 +27,12 @@ constexpr std::array<Texts, kReasons> kTexts{{
      "let the load come to rest, then `crane reset`"},
     {"encoder_jump",
      "an encoder changed in one tick by more than any motion can explain: a position is unknown",
-     "check its cable, then `crane home`; an axis without a mark: move it to its start position by hand, "
-     "then "
-     "restart the bridge"},
+     "check its cable, then `crane reset` and `crane home`; an axis without a mark: move it to its start "
+     "position by hand, then restart the bridge"},
     {"lost_counts",
      "a limit switch or mark operated far from its position: counts are lost, a position is unknown",
-     "check encoder and switch, then `crane home`; an axis without a mark: move it to its start position by "
-     "hand, then restart the bridge"},
+     "check encoder and switch, then `crane reset` and `crane home`; an axis without a mark: move it to its "
+     "start position by hand, then restart the bridge"},
     {"braked_motion", "an axis moved although its brake was closed",
      "repair the brake, then restart the bridge"},
     {"encoder_frozen", "the voltage of a drive must have moved its axis, but the encoder did not change",

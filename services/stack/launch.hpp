@@ -48,6 +48,10 @@ void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const L
 /// @param rig  rig file of the model. @throws std::runtime_error when the program is missing
 void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions options);
 
+/// Longest time until all processes are ready. Discovery of eight cranes that start at the same time in one
+/// domain takes up to 14 s on two busy cores, and the time grows with the number of cranes (docs/fleet.md).
+inline constexpr std::chrono::seconds kLongestStart{60};
+
 /// Waits until every component has reported ready on crane/node, from a process of `children`.
 /// @throws std::runtime_error with the name of a component that ended, or did not report within `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,

@@ -26,7 +26,6 @@ namespace crane::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 struct DemoOptions {
   stack::LaunchOptions launch;
@@ -121,7 +120,7 @@ int demo(DemoOptions options) {
   auto observer = options.launch.bus;
   observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
   bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
-  stack::wait_until_ready(children, specs, bus, 15s);
+  stack::wait_until_ready(children, specs, bus, stack::kLongestStart);
   if (options.dashboard)
     dashboard::launch(children, options.launch.bus, options.launch.rig, options.out,
                       dashboard::default_options().port);

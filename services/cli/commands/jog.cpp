@@ -135,7 +135,7 @@ constexpr const char* kJogNotes =
     "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or\n"
     "after m, at micro-speed; space releases the stick; q ends the program. A terminal reports no release\n"
     "of a key: a key acts for 0.6 s, and for 0.15 s after each repetition by the keyboard. After ten\n"
-    "seconds without a key the session ends.\n"
+    "seconds without a key the stick is released.\n"
     "The key i turns inching on and off: each key press moves one axis by a step; a key that is held down\n"
     "causes one step. The key r releases the stick and moves the axes back to the stop point, where the\n"
     "stick was last released.\n"

@@ -53,7 +53,7 @@ class Terminal {
 int run(const SweepOptions& options) {
   const auto sweep = checked_sweep(options);
   if (options.check) {
-    std::cout << sweep.size() << " runs: " << sweep.cases.size() << " scenarios on rigs, "
+    std::cout << sweep.size() << " runs: " << sweep.cases.size() << " pairs of scenario and rig, "
               << sweep.variants.size() << " variants, " << sweep.controllers.size() << " controllers, "
               << sweep.seeds << " seeds\n";
     return runtime::kExitDone;

@@ -140,10 +140,6 @@ void require_possible_in_process(const UpOptions& options) {
   if (!problems.empty()) throw configuration::ConfigurationError(std::move(problems));
 }
 
-/// Longest time until all processes are ready. Discovery of eight cranes that start at the same time in one
-/// domain takes up to 14 s on two busy cores, and the time grows with the number of cranes (docs/fleet.md).
-constexpr std::chrono::seconds kPatience{60};
-
 int up(UpOptions options) {
   runtime::install_stop_signals();
   require_possible_in_process(options);
@@ -179,7 +175,7 @@ int up(UpOptions options) {
     std::filesystem::create_directories(options.dashboard_runs);
     dashboard.start();
   }
-  stack::wait_until_ready(children, specs, bus, kPatience);
+  stack::wait_until_ready(children, specs, bus, stack::kLongestStart);
   if (options.launch.clock == "lockstep")
     stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
         {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});

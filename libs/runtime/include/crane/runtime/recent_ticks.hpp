@@ -1,6 +1,6 @@
 #pragma once
-/// Headers of the ticks of the last seconds. Tick numbers begin at 0 after each start, but the sample time of a
-/// tick belongs to one run only: a sample with both numbers of a recent tick was made in this run.
+/// Headers of the ticks of the last seconds. Tick numbers begin at 0 after each start, but the sample time of
+/// a tick belongs to one run only: a sample with both numbers of a recent tick was made in this run.
 #include <cmath>
 #include <cstdint>
 #include <optional>
