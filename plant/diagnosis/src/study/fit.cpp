@@ -26,6 +26,9 @@ constexpr double kLeastGainOfSquares = 3, kLeastShareOfSquares = 1e-4;
 /// value; last step as a share of the first; factor after a step that decreases the loss; factor after steps
 /// that decrease it in neither direction.
 constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0.5;
+/// A fit ends before a step whose predicted decrease is less than this share of the least decrease of a
+/// round.
+constexpr double kWorthAStep = 0.3;
 /// From this round on, a fit ends if kDecreaseMargin times the predicted decrease does not bring the loss
 /// below `loss_to_beat`.
 constexpr int kLeastRounds = 1;
@@ -47,10 +50,6 @@ Flat flatten(const Effects& effects) {
   return flat;
 }
 
-/// True if slopes do not describe the loss. Several effects are never rough: their fit begins at the values
-/// that each of them has alone.
-bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
-
 bool same_values(const Effects& a, const Effects& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](const Effect& x, const Effect& y) { return x.values == y.values; });
@@ -59,6 +58,11 @@ bool same_values(const Effects& a, const Effects& b) {
 /// Predicted decrease of the loss by an undamped step without bounds.
 double predicted_decrease(const BlockScores& at) {
   return at.gradient().dot(solve(at.curvature, at.gradient()));
+}
+
+/// Predicted decrease of the loss by a step.
+double promised(const BlockScores& at, const VectorXd& step) {
+  return step.allFinite() ? 2 * at.gradient().dot(step) - step.dot(at.curvature * step) : 0;
 }
 
 /// Damped step of the values `active` inside their bounds. A value at its bound whose step leads outwards is
@@ -119,6 +123,8 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 }  // namespace
 
+bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
+
 bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
                     std::size_t apart) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
@@ -135,6 +141,8 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
     const Flat flat = flatten(best.effects);
     double gained = 0;
     const auto groups = step_groups(best.effects, apart);
+    if (promised(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) < kWorthAStep * enough)
+      break;
     for (std::size_t group = 0; group < groups.size() && gained < enough; ++group) {
       const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
       bool moves = false;
@@ -150,7 +158,6 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
           least = now;
           best.effects = tried;
           best.train = std::move(found);
-          along.reset();
           damping = std::max(1e-6, damping * 0.2);
         } else {
           damping = std::max(damping, 1e-4) * 8;
@@ -158,7 +165,8 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
       }
       if (gained < enough) damping = kFirstDamping;
     }
-    if (gained < enough) break;
+    if (gained < enough) break;  // so small a step does not change the slopes
+    along.reset();
   }
   return true;
 }

@@ -136,12 +136,19 @@ Nuisance Study::nuisance_of(const Fitted& fitted, const Nuisance& unchanged, con
   return found;
 }
 
+bool Study::fitted_jointly(const Effects& effects) const {
+  return !is_rough(effects) && !visible_inaccuracies_beside(effects).empty();
+}
+
 Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
   Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostNoiseRounds; ++round) {
     whiten_training(round == 0 ? first_fit.first_nuisance : nuisance_of(last, last.nuisance, last.nuisance));
-    last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
+    last.train = evaluated_again(last);
+    // Later rounds begin near their result: the joint fit suffices.
+    if (round == 0 || !fitted_jointly(last.effects))
+      last = fit(last.effects, std::numeric_limits<double>::infinity(), last.train);
     fit_inaccuracies(last);
     judge_by_likelihood(last);
     last.misfit = first_fit.misfit;

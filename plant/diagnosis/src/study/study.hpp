@@ -206,6 +206,8 @@ class Study {
   void calibrate();
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
   void fit_inaccuracies(Fitted& fitted);
+  /// True if fit_inaccuracies() suffices when only the noise model has changed.
+  [[nodiscard]] bool fitted_jointly(const Effects& effects) const;
   /// Sets covariance and penalty of a fit. @param along slopes, of the effects first
   void estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effects& beside) const;
   /// Pattern search with decreasing steps. @param hold_bounds  parameters that are usually at a bound stay
@@ -262,6 +264,10 @@ class Study {
   Problem whole_runs_;  ///< of the load, training
   Evaluation base_train_;
 };
+
+/// True if slopes do not describe the loss. Several effects are never rough: their fit begins at the values
+/// that each of them has alone.
+[[nodiscard]] bool is_rough(const Effects& effects);
 
 /// Adds `step` to the values and clamps them to their bounds.
 [[nodiscard]] Effects moved(Effects effects, const Eigen::VectorXd& step);
