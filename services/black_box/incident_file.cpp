@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <regex>
@@ -33,19 +34,37 @@ recording::Metadata trigger_of(const Incident& incident) {
           {"faults", std::to_string(incident.faults)}};
 }
 
-/// Gives the file the first free name.
-std::filesystem::path published(const std::filesystem::path& unfinished, const std::filesystem::path& named) {
-  for (int number = 1;; ++number) {
-    const std::string file =
-        named.string() + (number > 1 ? "_" + std::to_string(number) : std::string{}) + ".mcap";
-    if (::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0) return file;
-    if (errno != EEXIST)
-      throw recording::WriteError(file + ": cannot write: " + std::generic_category().message(errno));
+/// Gives the file a name that no other file has. Not every file system has hard links, or a rename that
+/// replaces nothing.
+/// @return false when another file has this name
+bool renamed(const std::filesystem::path& unfinished, const std::string& file) {
+  if (::link(unfinished.c_str(), file.c_str()) == 0) {
+    (void)::unlink(unfinished.c_str());
+    return true;
   }
+  if (errno != EEXIST &&
+      ::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0)
+    return true;
+  if (errno == EEXIST) return false;
+  throw recording::WriteError(file + ": cannot write: " + std::generic_category().message(errno));
 }
 
-/// True if the process that was writing the file has ended.
-bool is_abandoned(const std::string& pid) { return ::kill(std::stoi(pid), 0) != 0 && errno == ESRCH; }
+std::filesystem::path published(const std::filesystem::path& unfinished, const std::filesystem::path& named) {
+  std::string file = named.string() + ".mcap";
+  for (int number = 2; !renamed(unfinished, file); ++number)
+    file = named.string() + "_" + std::to_string(number) + ".mcap";
+  return file;
+}
+
+/// True if the process that was writing the file has ended. The process may run on another host or in a
+/// container: its file is then recent.
+bool is_abandoned(const std::filesystem::path& file, const std::string& pid) {
+  constexpr std::chrono::minutes kLongestWrite{10};
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(file, error);
+  const bool recent = error || std::filesystem::file_time_type::clock::now() - written < kLongestWrite;
+  return !recent && ::kill(std::stoi(pid), 0) != 0 && errno == ESRCH;
+}
 
 }  // namespace
 
@@ -85,7 +104,7 @@ void keep_newest(const std::filesystem::path& directory, std::size_t files) noex
     const std::string name = entry.path().filename().string();
     std::smatch unfinished;
     if (std::regex_match(name, kOurs)) ours.push_back(entry.path());
-    if (std::regex_match(name, unfinished, kUnfinished) && is_abandoned(unfinished[1]))
+    if (std::regex_match(name, unfinished, kUnfinished) && is_abandoned(entry.path(), unfinished[1]))
       std::filesystem::remove(entry.path(), error);
   }
   if (ours.size() <= files) return;

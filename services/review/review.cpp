@@ -70,8 +70,8 @@ class Reader {
   }
 
  private:
-  /// A process is silent after seconds. In a longer gap of the recording, for example after a step of the
-  /// clock, further polls find nothing.
+  /// A process of the loop counts as silent after 2.5 s, any other after 10 s. In a gap of more than a
+  /// minute, for example after a step of the clock, later polls find nothing new.
   void poll_until(std::int64_t now_ns) {
     constexpr std::int64_t kLongestGap_ns = 60'000'000'000;
     if (polled_ns_ == 0) polled_ns_ = now_ns;

@@ -194,10 +194,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     statuses_.publish(status_of(last_header_, output, limits_, move_,
                                 limited_stick(mode_, jogs_.session().deflection(input.now_s)), mode_));
     sole_.stepped(output.state);
-    // The ticks of another bridge begin at 0.
-    const bool stopped =
-        input.bridge_restarted || (output.state != announced_ && is_stopped(output.state));
-    if (stopped || std::ranges::any_of(due, is_stop)) requests_.stopped(input.tick);
+    const bool stopped = input.bridge_restarted || (output.state != announced_ && is_stopped(output.state));
+    if (stopped || std::ranges::any_of(due, is_stop)) requests_.stopped(now_ns_);
     if (realtime_ && !limits_.machine.known && output.state == State::arming && announced_ != State::arming)
       announce_unchecked(node());
     if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);

@@ -35,18 +35,26 @@ Plane turned(const Plane& a, double angle_rad) {
   return {c * a[0] - s * a[1], s * a[0] + c * a[1]};
 }
 
-/// Positions with the delay of the measured swing angles.
+/// Positions with the delay of the measured swing angles. Like the bridge, the filter takes one step per
+/// tick, and receives interpolated positions for the ticks without a sample.
+/// @param memory  recent[1] is the sample before
 PerAxis filtered(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) {
   const control::FilterSection& filter = limits.machine.swing_filter;
   if (!limits.machine.swing_filtered) return input.position;
-  const bool starts = !std::exchange(memory.filter_started, true);
-  memory.filter_ticks_left =
-      starts ? limits.machine.swing_filter_ticks : std::max(memory.filter_ticks_left - 1, 0);
-  PerAxis position{};
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    if (starts) memory.filter[i] = control::settled(filter, input.position[i]);
-    position[i] = control::step(filter, memory.filter[i], input.position[i]);
+  const PerAxis before = std::exchange(memory.unfiltered_position, input.position);
+  if (!std::exchange(memory.filter_started, true)) {
+    memory.filter_ticks_left = limits.machine.swing_filter_ticks;
+    for (std::size_t i = 0; i < kAxes; ++i) memory.filter[i] = control::settled(filter, input.position[i]);
+    return input.position;
   }
+  const double elapsed_ticks = (input.sampled_s - memory.recent[1].sampled_s) / limits.period_s;
+  const int ticks = std::max(1, static_cast<int>(std::lround(elapsed_ticks)));
+  memory.filter_ticks_left = std::max(memory.filter_ticks_left - ticks, 0);
+  PerAxis position{};
+  for (std::size_t i = 0; i < kAxes; ++i)
+    for (int tick = 1; tick <= ticks; ++tick)
+      position[i] =
+          control::step(filter, memory.filter[i], before[i] + (input.position[i] - before[i]) * tick / ticks);
   return position;
 }
 

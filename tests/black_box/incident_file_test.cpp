@@ -56,11 +56,16 @@ TEST(IncidentFile, OfAnotherProcessThatIsStillWritingIsKept) {
   const recording::TemporaryDirectory directory;
   const auto unfinished = [](pid_t pid) { return "20260101T000000Z_A." + std::to_string(pid) + ".part"; };
   constexpr pid_t kNoProcess = 999'999'999;
-  recording::put_contents(directory / unfinished(getpid()), "");
-  recording::put_contents(directory / unfinished(kNoProcess), "");
-  keep_newest(directory / "", 2);
-  EXPECT_TRUE(std::filesystem::exists(directory / unfinished(getpid())));
-  EXPECT_FALSE(std::filesystem::exists(directory / unfinished(kNoProcess)));
+  const auto is_kept = [&](pid_t pid, std::chrono::minutes age) {
+    recording::put_contents(directory / unfinished(pid), "");
+    std::filesystem::last_write_time(directory / unfinished(pid),
+                                     std::filesystem::file_time_type::clock::now() - age);
+    keep_newest(directory / "", 2);
+    return std::filesystem::exists(directory / unfinished(pid));
+  };
+  EXPECT_TRUE(is_kept(getpid(), std::chrono::minutes{60}));
+  EXPECT_TRUE(is_kept(kNoProcess, std::chrono::minutes{1})) << "a process of another host";
+  EXPECT_FALSE(is_kept(kNoProcess, std::chrono::minutes{60}));
 }
 
 TEST(IncidentFile, KeepsOnlyTheNewestOfItsOwnFiles) {

@@ -181,11 +181,32 @@ TEST_F(InboxInRealTime, RefusesARequestOfAnEarlierRunWithTheNumberOfAPresentTick
 
 TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorSawTheCraneBeforeItsLastStop) {
   run_until(100);
-  inbox_.stopped(100);
+  inbox_.stopped(now_ns_);
   run_until(150);
   EXPECT_FALSE(executes(header_of(99)));
   EXPECT_TRUE(executes(header_of(100)));
   EXPECT_TRUE(executes(header_of(99), crane_REQUEST_STOP));
+}
+
+/// The bridge is silent: the supervisor stops the crane after its newest tick.
+TEST_F(InboxInRealTime, RefusesARequestThatNamesTheTickBeforeAStopWithoutATick) {
+  run_until(100);
+  now_ns_ += 30'000'000;
+  inbox_.stopped(now_ns_);
+  EXPECT_FALSE(executes(header_of(100)));
+}
+
+/// Ticks begin at 0 again.
+TEST_F(InboxInRealTime, RefusesATickOfTheBridgeBeforeARestart) {
+  run_until(5000);
+  const auto before = header_of(5000);
+  now_ns_ += 400'000'000;
+  msg::Header first{};
+  first.sample_time_ns = now_ns_;
+  inbox_.stepped(first, now_ns_);
+  inbox_.stopped(now_ns_);
+  EXPECT_FALSE(executes(before));
+  EXPECT_TRUE(executes(first));
 }
 
 TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorNamesNoTick) {

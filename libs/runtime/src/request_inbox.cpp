@@ -53,8 +53,8 @@ std::string_view RequestInbox::obsolete_because(const msg::Request& request, std
   const auto seen_ns = ticks_.time_of(request.header);
   if (!seen_ns || now_ns - *seen_ns > kLongestAge_ns)
     return "its operator has not seen the crane within the last 2 s (header.tick and header.sample_time_ns "
-           "are not those of a recent crane/supervisor): repeat the request";
-  if (request.header.tick < stopped_tick_)
+           "are not those of a crane/state of the last 2 s): repeat the request";
+  if (*seen_ns < stopped_ns_)
     return "the crane has stopped since the operator saw it: look at the crane and repeat the request";
   return "";
 }

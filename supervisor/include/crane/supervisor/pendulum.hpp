@@ -64,7 +64,8 @@ struct PendulumMemory {
   std::size_t samples = 0;  ///< number of samples since the start, at most kMeanSamples + 2
   std::array<control::FilterMemory, kAxes> filter{};  ///< of the positions, if the angles are filtered
   bool filter_started = false;
-  int filter_ticks_left = 0;  ///< until the filter of the positions has settled; the sum is 0 before
+  PerAxis unfiltered_position{};  ///< of the newest sample
+  int filter_ticks_left = 0;      ///< until the filter of the positions has settled; the sum is 0 before
   std::array<Balance, kMeanSamples> balances{};
   std::size_t next = 0;  ///< index of the next balance
   Plane sum_mps{};

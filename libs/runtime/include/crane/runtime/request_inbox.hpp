@@ -3,6 +3,7 @@
 /// them on crane/reply.
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,8 @@ class RequestInbox {
   static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
-  /// In real time, a request is refused if its operator saw the crane longer ago: the operator tools wait as
-  /// long for an answer. Afterwards their operator does not expect a motion.
+  /// In real time, a request is refused if it names a tick older than this. The operator tools wait as long
+  /// for an answer; afterwards, their operator expects no motion.
   static constexpr double kLongestAge_s = 2;
 
   /// @param kinds  kinds of request that this process executes; it ignores all others
@@ -38,9 +39,9 @@ class RequestInbox {
   bool receive();
   /// Notes a tick of this run. @param now_ns  its local time
   void stepped(const msg::Header& header, std::int64_t now_ns) { ticks_.add(header, now_ns); }
-  /// In real time, refuses all requests from now on whose operator has not seen this tick or a later one,
-  /// except those that stop the crane: the crane has stopped.
-  void stopped(std::uint64_t tick) { stopped_tick_ = tick; }
+  /// The crane stops now. In real time, refuses all requests that name an earlier tick, except those that
+  /// stop the crane.
+  void stopped(std::int64_t now_ns) { stopped_ns_ = now_ns; }
   /// True if the request stops the crane.
   [[nodiscard]] static bool stops(const msg::Request& request);
   /// @param sender  participant that sent the request
@@ -57,13 +58,13 @@ class RequestInbox {
     msg::Request request;
     bus::ParticipantId sender;
   };
-  /// Why the request comes too late; empty: it does not.
+  /// Why the request is refused as obsolete; empty: it is not.
   [[nodiscard]] std::string_view obsolete_because(const msg::Request& request, std::int64_t now_ns) const;
   void refuse_untimely(std::uint64_t tick, std::int64_t now_ns);
 
   bool schedules_;  ///< lockstep: requests may wait for their tick
   RecentTicks ticks_;
-  std::uint64_t stopped_tick_ = 0;  ///< tick of the last stop
+  std::int64_t stopped_ns_ = std::numeric_limits<std::int64_t>::min();  ///< local time of the last stop
   bus::Subscriber<msg::Request> requests_;
   Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
