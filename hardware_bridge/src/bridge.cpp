@@ -30,7 +30,7 @@ std::vector<runtime::Write> bridge_writes() {
 
 namespace {
 
-/// The bridge ignores commands for older ticks. A command is stale long before.
+/// The bridge ignores commands that answer older ticks. Long before, LastLine has latched command_stale.
 constexpr double kNewestCommands_s = 1;
 
 }  // namespace
@@ -118,7 +118,7 @@ void Bridge::take_commands(std::int64_t now_ns) {
   std::size_t budget = runtime::LoopReader<msg::Command>::kMostPerPoll;
   while (const auto taken = commands_->take(now_ns, budget)) {
     const auto* command = &taken->sample;
-    if (!ticks_.time_of(command->header)) {  // the answer to a state of an earlier bridge, or a very old one
+    if (!ticks_.time_of(command->header)) {  // answers an earlier bridge, or an old tick
       ++counts_.late;
       continue;
     }

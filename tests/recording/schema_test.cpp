@@ -181,7 +181,7 @@ TEST(Schema, RefusesATextThatWouldFillStackOrMemory) {
   std::string deep = "@final struct S0 { double a; };\n";
   for (int i = 1; i < 60'000; ++i)
     deep += "@final struct S" + std::to_string(i) + " { S" + std::to_string(i - 1) + " a; };\n";
-  EXPECT_THAT(schema_error(deep), HasSubstr("line 33: S32 contains more than 32 nested structures"));
+  EXPECT_THAT(schema_error(deep), HasSubstr("line 33: S32 nests structures more than 32 deep"));
   EXPECT_THAT(schema_error("@final struct A { uint8 a[65536]; };\n@final struct B { A a[2]; };"),
               HasSubstr("line 2: B has more than 65536 values"));
   EXPECT_THAT(schema_error("@final struct E { };\n@final struct A { E a[65536]; E b; };"),

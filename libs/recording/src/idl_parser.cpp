@@ -202,7 +202,7 @@ class Parser {
     if (field.structure != nullptr) of.depth = std::max(of.depth, field.structure->depth + 1);
     of.fields.push_back(std::move(field));
     if (of.depth > kMaxDepth)
-      fail_at(at, of.name + " contains more than " + std::to_string(kMaxDepth) + " nested structures");
+      fail_at(at, of.name + " nests structures more than " + std::to_string(kMaxDepth) + " deep");
     if (of.values > kMaxValues)
       fail_at(at, of.name + " has more than " + std::to_string(kMaxValues) + " values");
     if (of.fields.size() > kMaxFields)

@@ -58,8 +58,8 @@ class Learning {
   }
 
   /// The likeliest of `near` and the results of searches from it. The inaccuracy of the speed has a known
-  /// size, so that its ratio to the noise follows from the noise of the search before. Only with inaccurate
-  /// times, a search is repeated, and its result can be less likely than `near`.
+  /// size, so that its ratio to the noise follows from the noise of the search before. The search is repeated
+  /// only with inaccurate times. Its result can then be less likely than `near`.
   Disturbance likeliest_near(const Disturbance& near) {
     Disturbance best = near, last = near;
     best.misfit = misfit_of(near);

@@ -133,7 +133,7 @@ Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<
                       const Disturbance& d, const Likelihood& best, double least_variance) {
   const AllInnovations all = all_innovations(residuals, motions, d);
   if (!(all.squares > 0)) return {};
-  // A variance at its bound has a larger value than the robust variance.
+  // For normal residuals, a variance at its bound has a larger value than the robust variance.
   if (best.variance > 0 &&
       robust_variance_is_at_least(std::exp((best.value - all.logs) / all.count), all.of_windows, all.count))
     return {};

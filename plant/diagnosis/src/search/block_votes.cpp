@@ -14,8 +14,8 @@ constexpr int kVotes = 500;
 
 /// Limits each difference to twice the 95 % quantile of the magnitudes. Without the limit, one block can
 /// outweigh all others: a slip that comes a little earlier or later changes its block as much as a real
-/// effect changes all blocks together. A block with the difference 0 is in a part of the data in which no
-/// effect is visible; it does not count.
+/// effect changes all blocks together. A block with the difference 0 does not count: no effect is visible in
+/// its part of the data.
 void limit(std::vector<double>& differences) {
   std::vector<double> sizes;
   sizes.reserve(differences.size());

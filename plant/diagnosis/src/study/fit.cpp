@@ -165,7 +165,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
       }
       if (gained < enough) damping = kFirstDamping;
     }
-    if (gained < enough) break;  // so small a step does not change the slopes
+    if (gained < enough) break;  // a step this small does not change the slopes
     along.reset();
   }
   return true;

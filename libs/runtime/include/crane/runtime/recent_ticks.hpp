@@ -1,6 +1,6 @@
 #pragma once
-/// Headers of the ticks of the last seconds. Tick numbers begin at 0 after each start, but the sample time of
-/// a tick belongs to one run only: a sample with both numbers of a recent tick was made in this run.
+/// Headers of the newest ticks. Tick numbers begin at 0 after each start. In real time, sample times do not
+/// repeat: a sample with both numbers of a recent tick was made in this run.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,7 @@ namespace crane::runtime {
 
 class RecentTicks {
  public:
-  /// @param kept_s  time for which a tick is recent, > 0 @param period_s  of a tick, > 0
+  /// @param kept_s  a tick is kept at least for this time, > 0 @param period_s  of a tick, > 0
   RecentTicks(double kept_s, double period_s)
       : ring_(static_cast<std::size_t>(std::ceil(kept_s / period_s)) + 1) {}
 
