@@ -33,6 +33,12 @@ namespace {
 /// The bridge ignores commands that answer older ticks. Long before, LastLine has latched command_stale.
 constexpr double kNewestCommands_s = 1;
 
+/// A stop is executed also if it answers a state with a false sample time.
+bool moves_nothing(const msg::Command& command) {
+  return std::ranges::all_of(command.drive_v, [](double volts) { return volts == 0; }) &&
+         std::ranges::none_of(command.brake_release, [](bool released) { return released; });
+}
+
 }  // namespace
 
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
@@ -118,7 +124,8 @@ void Bridge::take_commands(std::int64_t now_ns) {
   std::size_t budget = runtime::LoopReader<msg::Command>::kMostPerPoll;
   while (const auto taken = commands_->take(now_ns, budget)) {
     const auto* command = &taken->sample;
-    if (!ticks_.time_of(command->header)) {  // answers an earlier bridge, or an old tick
+    const bool answers_this_run = ticks_.time_of(command->header).has_value() || moves_nothing(*command);
+    if (!tick_ || command->header.tick > *tick_ || !answers_this_run) {
       ++counts_.late;
       continue;
     }

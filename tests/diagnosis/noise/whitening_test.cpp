@@ -151,5 +151,22 @@ TEST(Whitener, FindsThatASlowAxisDoesNotStick) {
   EXPECT_FALSE(learn(residuals, motions, kLeastNoise).sticks);
 }
 
+/// Refits learn the noise again from nearly the same residuals.
+TEST(Whitener, LearnsNoLessLikelyNoiseWhenItLearnsAgain) {
+  const Sticking data = sticking(3);
+  auto inaccurate = data.motions;
+  for (WindowMotion& motion : inaccurate)
+    for (std::size_t k = 0; k < motion.profile.size(); k += 20) motion.profile[k].speed_inaccuracy = 1e-3;
+  for (const double least : {kLeastNoise, 3e-6})  // the noise is 1e-6
+    for (const auto& motions : {data.motions, inaccurate}) {
+      Disturbance before = learn(data.residuals, motions, least);
+      for (int round = 0; round < 5; ++round) {
+        const Disturbance again = learn(data.residuals, motions, least, before);
+        EXPECT_LE(again.misfit, before.misfit + 1e-6) << "least noise " << least << ", round " << round;
+        before = again;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace crane::diagnosis

@@ -59,7 +59,8 @@ class Learning {
 
   /// The likeliest of `near` and the results of searches from it. The inaccuracy of the speed has a known
   /// size, so that its ratio to the noise follows from the noise of the search before. The search is repeated
-  /// only with inaccurate times. Its result can then be less likely than `near`.
+  /// only with inaccurate times. With them, and with the noise at its lower bound, a result can be less
+  /// likely than `near`.
   Disturbance likeliest_near(const Disturbance& near) {
     Disturbance best = near, last = near;
     best.misfit = misfit_of(near);
@@ -87,7 +88,7 @@ class Learning {
   Disturbance search(const Disturbance& start) {
     best_ = start;
     rejected_.clear();
-    found_ = likelihood(residuals_, motions_, best_, {}, least_noise_ * least_noise_);
+    found_ = likelihood(residuals_, motions_, best_, {});
     if (best_.acceleration == 0) begin();
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       const double before = found_.value;
@@ -101,9 +102,11 @@ class Learning {
     const double noise = std::sqrt(found_.variance);
     found.acceleration *= noise;
     found.friction *= noise;
-    found.noise = std::max(noise, least_noise_);  // the residuals can all be zero
+    found.noise = std::max(noise, least_noise_);
     found.unit = 1;
-    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // all residuals are zero
+    found.misfit = found_.value;
+    if (!std::isfinite(found_.value)) found.misfit = 0;  // all residuals are zero
+    if (noise > 0 && noise < least_noise_) found.misfit = misfit_of(found);
     return found;
   }
 
@@ -113,7 +116,7 @@ class Learning {
     const std::array<double, 5> place{d.acceleration, d.correlation_s, d.damping_ps, d.friction,
                                       d.sticks ? 1.0 : 0.0};
     if (std::ranges::find(rejected_, place) != rejected_.end()) return false;
-    const Likelihood tried = likelihood(residuals_, motions_, d, found_, least_noise_ * least_noise_);
+    const Likelihood tried = likelihood(residuals_, motions_, d, found_);
     const bool likelier = tried.value < found_.value;
     if (likelier)
       found_ = tried;

@@ -130,19 +130,15 @@ double value_at(double variance, const AllInnovations& all) {
 }  // namespace
 
 Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
-                      const Disturbance& d, const Likelihood& best, double least_variance) {
+                      const Disturbance& d, const Likelihood& best) {
   const AllInnovations all = all_innovations(residuals, motions, d);
   if (!(all.squares > 0)) return {};
-  // For normal residuals, a variance at its bound has a larger value than the robust variance.
   if (best.variance > 0 &&
       robust_variance_is_at_least(std::exp((best.value - all.logs) / all.count), all.of_windows, all.count))
     return {};
   const double variance =
       robust_variance(all.of_windows, best.variance > 0 ? best.variance : all.squares / all.count);
-  if (variance >= least_variance) return {all.logs + all.count * std::log(variance), variance};
-  const double value = value_at(least_variance, all);
-  if (value >= best.value) return {};
-  return {value, least_variance};
+  return {all.logs + all.count * std::log(variance), variance};
 }
 
 double value_at(double variance, const std::vector<VectorXd>& residuals,

@@ -16,13 +16,13 @@ struct Likelihood {
 
 /// Likelihood of the innovations of the Kalman filter (filter.hpp), the common scale profiled out. The first
 /// two measured rows of a window determine its start and are not counted. The scale is robust: the mean
-/// Cauchy loss is that of normal residuals, unless the variance is at its bound.
+/// Cauchy loss is that of normal residuals.
 /// @param disturbance  with noise 1
 /// @param best another likelihood of the same residuals; its variance is the initial value of the scale
 /// @return without a value if it would not be smaller than that of `best`
 [[nodiscard]] Likelihood likelihood(const std::vector<Eigen::VectorXd>& residuals,
                                     const std::vector<WindowMotion>& motions, const Disturbance& disturbance,
-                                    const Likelihood& best, double least_variance);
+                                    const Likelihood& best);
 
 /// Minus twice the log likelihood of a disturbance with noise 1 and with this common factor of all variances.
 [[nodiscard]] double value_at(double variance, const std::vector<Eigen::VectorXd>& residuals,

@@ -49,7 +49,9 @@ Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all, con
     Effects start = part->effects;
     start.push_back(with_no_amount(given.effects[i]));
     study.whiten_training(part->nuisance);
-    const Fitted again = study.refit_with_own_noise(study.first_fit(start, *part));
+    Fitted first = study.first_fit(start, *part);
+    first.first_nuisance = part->nuisance;  // with this noise, the start is as likely as the part
+    const Fitted again = study.refit_with_own_noise(first);
     if (less(again, whole)) whole = again;
   }
   return whole;
