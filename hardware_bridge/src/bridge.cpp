@@ -30,10 +30,11 @@ std::vector<runtime::Write> bridge_writes() {
 
 namespace {
 
-/// The bridge ignores commands that answer older ticks. Long before, LastLine has latched command_stale.
+/// The bridge ignores commands that answer older ticks, except 0 V with closed brakes. LastLine latches
+/// command_stale long before this time.
 constexpr double kNewestCommands_s = 1;
 
-/// A stop is executed also if it answers a state with a false sample time.
+/// True for 0 V with closed brakes. Such a command is accepted with any sample time.
 bool moves_nothing(const msg::Command& command) {
   return std::ranges::all_of(command.drive_v, [](double volts) { return volts == 0; }) &&
          std::ranges::none_of(command.brake_release, [](bool released) { return released; });

@@ -22,7 +22,8 @@ struct Origin {
 std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
                                      const Origin& origin, const recording::Metadata& processes);
 
-/// Deletes the oldest files of the black box, and unfinished files of processes that have ended; other files
+/// Deletes the oldest files of the black box, and files that are unfinished, at least 10 minutes old and of
+/// an ended process; other files
 /// are not deleted.
 void keep_newest(const std::filesystem::path& directory, std::size_t files) noexcept;
 

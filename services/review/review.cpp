@@ -70,8 +70,9 @@ class Reader {
   }
 
  private:
-  /// A process of the loop counts as silent after 2.5 s, any other after 10 s. In a gap of more than a
-  /// minute, for example after a step of the clock, later polls find nothing new.
+  /// A process of the loop counts as silent after 2.5 s, any other after 10 s. Of a gap of more than a
+  /// minute, for example after a step of the clock, only the first minute is polled: every silence is found
+  /// by then.
   void poll_until(std::int64_t now_ns) {
     constexpr std::int64_t kLongestGap_ns = 60'000'000'000;
     if (polled_ns_ == 0) polled_ns_ = now_ns;

@@ -14,8 +14,8 @@ enum class Loss { squares, robust };
 inline constexpr double kCauchyScaleSquared = 9;
 /// Mean loss of a standard normal residual.
 inline constexpr double kMeanLoss = 0.874;
-/// Mean of e^2 W(e) of a standard normal residual e. At the true scale, the loss divided by this number
-/// decreases by 1 per unit of the logarithm of the variance: together with this logarithm it is stationary.
+/// Mean of e^2 W(e) of a standard normal residual e. At the true scale, the mean of loss / kLossPerDeviance
+/// decreases by 1 per unit of ln(variance): its sum with ln(variance) is stationary.
 inline constexpr double kLossPerDeviance = 0.776;
 
 /// In noise variances.
