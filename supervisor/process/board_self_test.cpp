@@ -3,8 +3,8 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kQuietTicks = 10;     // in a row: the test has passed
-constexpr int kLongestTicks = 200;  // with a state: the test has failed
+constexpr int kQuietTicks = 10;     // consecutive safe states that pass the test
+constexpr int kLongestTicks = 200;  // number of states after which the test has failed
 
 bool is_quiet(const msg::State& state) {
   for (std::size_t i = 0; i < kAxes; ++i)

@@ -1,6 +1,6 @@
 #pragma once
 /// Clock of the bridge. The bridge stamps its samples with its monotonic clock, which has an arbitrary
-/// origin; the supervisor measures silence with its own clock. Pure.
+/// origin. The supervisor measures silence with its own clock. Pure.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -48,8 +48,8 @@ class BridgeClock {
     return Verdict::begins_anew;
   }
 
-  /// @return local time of `remote_ns`. @param now_ns  local time at which the sample stamped `remote_ns`
-  /// arrived
+  /// @param now_ns  local time of arrival of the sample stamped `remote_ns`
+  /// @return local time of `remote_ns`
   ///
   /// The offset is the smallest difference so far: that of the sample with the smallest delay. The offset
   /// grows by at most kDrift_ns per call, so that the drift of the clocks does not make later samples appear

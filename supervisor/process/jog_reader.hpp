@@ -16,7 +16,7 @@ class JogReader {
         node_{context.node} {}
 
   /// Takes a bounded number of samples: a flood must not delay the step. An event names the first sample of a
-  /// stranger, and the first unusable sample, of each session.
+  /// stranger and the first unusable sample of each session.
   /// @param step  header of the step that takes the samples
   void take(const msg::Header& step, double now_s);
   /// A move has been accepted: a session begins, or ends because the move replaces it.

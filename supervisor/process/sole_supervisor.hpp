@@ -2,11 +2,11 @@
 /// Detects another supervisor of the same crane, at the start and later. Pure; the time is an argument.
 ///
 /// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). A new
-/// supervisor exits (yields()) beside an established one, which is in use. If both are new, the supervisor
-/// with the larger start-up number exits. At most one of two supervisors exits: only a new supervisor exits,
-/// an established one never becomes new again, and two start-up numbers differ. A sample of crane/node alone
-/// ends no supervisor, because every process may write this topic. crane/supervisor has one writer, and keys
-/// authenticate this writer.
+/// supervisor exits (yields()) beside an established supervisor, which may be in use. If both are new, the
+/// supervisor with the larger start-up number exits. At most one of two supervisors exits: only a new
+/// supervisor exits, an established one never becomes new again, and two start-up numbers differ. A sample of
+/// crane/node alone ends no supervisor, because every process may write this topic. crane/supervisor has one
+/// writer, and keys authenticate this writer.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -5,8 +5,8 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr double kSilentPeriods = 1.5;   // without a state: the step is executed after this time
-constexpr double kOpenPeriods = 2;       // additional time when a state has arrived without its demand
+constexpr double kSilentPeriods = 1.5;   // longest wait for a state after the last sample
+constexpr double kOpenPeriods = 2;       // additional wait when a state has arrived without its demand
 constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
 constexpr std::int64_t kStart_ns = 2'000'000'000;  // longest wait for the first tick with all inputs
 

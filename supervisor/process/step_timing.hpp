@@ -18,13 +18,13 @@ class StepTiming {
   /// @return true when the supervisor begins with this tick, or has begun
   bool begins(bool complete, std::int64_t now_ns);
 
-  /// Call at a step with a state. Sets the time of the next step, should no further state arrive.
+  /// Call at a step with a state. Sets the time of the next step if no further state arrives.
   /// @param sampled_ns  local time of the sample
   void stepped(std::int64_t sampled_ns, std::int64_t now_ns);
 
-  /// Call when no tick is complete. When this process was scheduled late, samples may have arrived at the
-  /// host without being delivered yet. One pause of the computer must not count as several missing ticks.
-  /// Therefore the function extends the wait, once per step.
+  /// Call when no tick is complete. After a pause of the computer, samples may have arrived that are not yet
+  /// delivered. One pause must not count as several missing ticks; therefore the function extends the wait,
+  /// once per step.
   /// @param open  a state has arrived and waits for its demand. The tick join then determines the time of the
   ///   step; the supervisor also steps if states continue to arrive without demands
   /// @return true when the supervisor steps now without a state

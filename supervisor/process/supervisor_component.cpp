@@ -27,9 +27,9 @@ namespace {
 
 using runtime::Context;
 
-constexpr double kWaitShare = 0.6;  // share of a period: longest wait for the demand; the command must reach
-                                    // the bridge in the same period
-constexpr int kTicksToTakeUp = 20;  // from the acceptance of a move until the planner must execute it
+// Longest wait for the demand / period: the command must reach the bridge in the same period.
+constexpr double kWaitShare = 0.6;
+constexpr int kTicksToTakeUp = 20;  // longest time from the acceptance of a move to its first reference
 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
  public:
@@ -103,9 +103,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (foreign) give_up();
   }
 
-  /// No state arrives: the bridge has ended, hangs or is disconnected. Steps the state machine without a
-  /// sample. The command carries the number of the last tick, and the bridge discards the command. A late
-  /// state does not end a move.
+  /// Steps the state machine without a sample when no state arrives: the bridge has ended, hangs or is
+  /// disconnected. The command has the number of the last tick; a running bridge discards it. A late state
+  /// does not end a move.
   bool on_idle(std::int64_t now_ns) override {
     if (const auto* state = open_leader(); state != nullptr && bridge_clock_.fits(state->header))
       (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
@@ -156,7 +156,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] static double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
   [[nodiscard]] std::int64_t period_ns() const { return std::llround(limits_.period_s * 1e9); }
 
-  /// Reports the contradiction in the last status of this process.
+  /// Puts the contradiction into the last status of this process.
   void note_foreign(TickInput& input) const {
     if (echo_.is_of_volts())
       input.foreign_command = true;
@@ -203,7 +203,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   static bool is_stop(const DueRequest& due) { return runtime::RequestInbox::stops(due.request); }
-  /// States that a stop leads to.
+  /// True for the states during and after a stop.
   static bool is_stopped(State state) {
     return state == State::locked || state == State::estop || state == State::fault ||
            state == State::stop_c0 || state == State::stop_c1;

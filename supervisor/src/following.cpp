@@ -8,9 +8,11 @@
 namespace crane::supervisor {
 namespace {
 
-// after the opening of the brake: three samples and the two voltages before them
+// Consecutive samples with an open brake before the check starts: three samples, and the two voltages before
+// them.
 constexpr int kSettled_ticks = 5;
 
+/// Accelerations, unit/s^2.
 struct Interval {
   double low, high;
 };
@@ -24,7 +26,7 @@ void remember(const FollowingInput& input, FollowingMemory& memory) noexcept {
     memory.free_ticks[i] = input.free[i] ? std::min(memory.free_ticks[i] + 1, kSettled_ticks) : 0;
 }
 
-/// The middle sample of three, with mean rates.
+/// State at the middle one of the last three samples. The rates are means over both intervals.
 plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexcept {
   const auto& [newest, middle, oldest] = memory.recent;
   const double span_s = newest.sampled_s - oldest.sampled_s;
@@ -43,8 +45,8 @@ plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexc
   return s;
 }
 
-/// Acceleration of each axis under the mean voltage of the last two ticks, without friction. Each voltage
-/// counts for the duration of its tick: after a pause of the computer the ticks differ.
+/// Acceleration of each axis under the mean voltage of the last two ticks, without friction, unit/s^2. The
+/// voltages are weighted by the durations of their ticks, which differ after a pause of the computer.
 PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const plant::State& state,
                       double load_kg) noexcept {
   plant::Parameters p = limits.machine.crane;
@@ -65,7 +67,7 @@ PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const
   return {found.trolley_mps2, found.slew_radps2, found.cable_mps2};
 }
 
-/// Acceleration per volt of an axis without the force of the load.
+/// Acceleration of an axis without the force of the load, unit/s^2 per V.
 double gain_of(const Limits& limits, std::size_t axis, const plant::State& state) noexcept {
   const auto& p = limits.machine.crane;
   if (axis == 0) return p.trolley_gain_mps2pv;
@@ -74,7 +76,7 @@ double gain_of(const Limits& limits, std::size_t axis, const plant::State& state
   return p.slew_gain_radps2pv * jib / (jib + p.trolley_mass_kg * state.trolley_m * state.trolley_m);
 }
 
-/// Largest force of a load whose swing is not measured: that at the swing limit.
+/// Largest acceleration of an axis by a load whose swing is not measured: that at the swing limit, unit/s^2.
 double unmeasured_load_acceleration(const Limits& limits, std::size_t axis,
                                     const plant::State& state) noexcept {
   if (axis == 2 || limits.machine.swing_measured[axis]) return 0;
@@ -90,8 +92,12 @@ double friction_v(const MachineModel::Friction& friction, double speed) noexcept
 }
 
 /// Accelerations that the model permits between the oldest and the newest sample.
+/// @param with_load     acceleration of the model with the largest load, unit/s^2
+/// @param without_load  acceleration of the model without load, unit/s^2
+/// @param v             speed between the two newest samples, unit/s
+/// @param before        speed between the two oldest samples, unit/s
 Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& memory,
-                 const plant::State& state, double heaviest, double lightest, double v,
+                 const plant::State& state, double with_load, double without_load, double v,
                  double before) noexcept {
   const auto& [newest, middle, oldest] = memory.recent;
   const double gain = gain_of(limits, i, state);
@@ -99,8 +105,8 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
   const double drag = i == 2 ? std::abs(v) / limits.machine.crane.hoist_lag_s : 0;
   const double unknown = gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag +
                          unmeasured_load_acceleration(limits, i, state);
-  Interval found{std::min(heaviest, lightest) - unknown, std::max(heaviest, lightest) + unknown};
-  // below this speed friction can have both signs
+  Interval found{std::min(with_load, without_load) - unknown, std::max(with_load, without_load) + unknown};
+  // below this speed the friction can have either sign
   const double zero_speed = kSpeedShare * limits.axis[i].max_speed;
   if (std::max(v, before) > -zero_speed)
     found.low -= gain * friction_v(limits.machine.friction_positive[i], before);
@@ -109,16 +115,16 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
   return found;
 }
 
-bool judge_axis(const Limits& limits, std::size_t i, const plant::State& state, double heaviest,
-                double lightest, FollowingMemory& memory) noexcept {
+bool judge_axis(const Limits& limits, std::size_t i, const plant::State& state, double with_load,
+                double without_load, FollowingMemory& memory) noexcept {
   const auto& [newest, middle, oldest] = memory.recent;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
   const double v = (newest.position[i] - middle.position[i]) / newer_s;
   const double before = (middle.position[i] - oldest.position[i]) / older_s;
   const double dt_s = (newer_s + older_s) / 2, dv = v - before;
-  const Interval mps2 = allowed(limits, i, memory, state, heaviest, lightest, v, before);
-  memory.above[i] = std::max(0.0, memory.above[i] + dv - mps2.high * dt_s);
-  memory.below[i] = std::max(0.0, memory.below[i] + mps2.low * dt_s - dv);
+  const Interval permitted = allowed(limits, i, memory, state, with_load, without_load, v, before);
+  memory.above[i] = std::max(0.0, memory.above[i] + dv - permitted.high * dt_s);
+  memory.below[i] = std::max(0.0, memory.below[i] + permitted.low * dt_s - dv);
   const double ratio = std::max(memory.above[i], memory.below[i]) / following_limit(limits, i, before, dt_s);
   memory.largest[i] = std::max(memory.largest[i], ratio);
   return !(ratio <= 1);
@@ -141,13 +147,13 @@ bool following_error(const Limits& limits, const FollowingInput& input, Followin
     return false;
   }
   const auto state = state_of(limits, memory);
-  const auto heaviest =
+  const auto with_load =
       accelerations(limits, memory, state, kLoadRatioMax * limits.machine.crane.load_mass_kg);
-  const auto lightest = accelerations(limits, memory, state, 0);
+  const auto without_load = accelerations(limits, memory, state, 0);
   bool found = false;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (limits.axis[i].present && memory.free_ticks[i] == kSettled_ticks)
-      found = judge_axis(limits, i, state, heaviest[i], lightest[i], memory) || found;
+      found = judge_axis(limits, i, state, with_load[i], without_load[i], memory) || found;
     else
       memory.above[i] = memory.below[i] = 0;
   }

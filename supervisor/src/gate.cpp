@@ -11,9 +11,9 @@ namespace {
 using enum protection::Protection;
 using protection::enabled;
 
-// Weight of a tick with limited rate relative to one without. A demand that alternates has a limited rate
-// only in every second tick; it stops the crane after 2 kPressure / (kPressure - 1) times as many ticks as a
-// demand with limited rate in every tick.
+// Weight of a tick with limited rate, relative to a tick without limited rate. An alternating demand has a
+// limited rate in every second tick. It stops the crane after 2 kPressure / (kPressure - 1) times as many
+// ticks as a demand with limited rate in every tick.
 constexpr int kPressure = 4;
 // largest value of the counters, which would overflow if a stream were missing for months
 constexpr int kCountEnd = 1'000'000;
@@ -45,7 +45,7 @@ void limit_rate(const Limits& limits, GateMemory& memory, PerAxis& volts_v, Gate
   if (memory.rate_pressure >= rate_pressure_limit(limits)) output.cause = Cause::demand_rate;
 }
 
-/// Without a usable demand in this tick, holds the last output for a limited time.
+/// Sets `stale` and the cause after too many consecutive ticks without a usable demand.
 void judge_freshness(const Limits& limits, GateMemory& memory, GateOutput& output) noexcept {
   output.stale = memory.missing_in_row >= limits.demand_stale_after_ticks;
   if (memory.invalid_in_row >= limits.demand_invalid_in_row) {

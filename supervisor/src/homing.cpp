@@ -8,13 +8,13 @@ namespace {
 
 using control::Mark;
 
-constexpr double kMargin = 1.1;          // longest search / travel of the axis, for errors of scale
-constexpr double kStill_s = 1;           // longest time without progress
-constexpr double kShareOfSpeed = 0.005;  // progress / commanded distance; a drive breaks loose slowly
-constexpr double kLongestBack = 4;       // longest distance away from the mark / back_off
-constexpr double kWrongDirection =
-    2;  // longest motion in the wrong direction / back_off, while the axis reverses
-constexpr int kTicksToBeFound = 5;  // ticks from the active mark until the bridge reports it as found
+constexpr double kMargin = 1.1;  // longest search / travel of the axis: 10 % for an error of the scale
+constexpr double kStill_s = 1;   // longest time without progress
+// Smallest distance that counts as progress / commanded distance: a drive breaks loose slowly.
+constexpr double kShareOfSpeed = 0.005;
+constexpr double kLongestBack = 4;     // longest distance away from the mark / back_off
+constexpr double kWrongDirection = 2;  // longest motion in the wrong direction (reversal) / back_off
+constexpr int kTicksToBeFound = 5;     // longest time from the active mark to its report by the bridge
 
 struct Leg {
   double direction = 0, speed = 0;

@@ -4,10 +4,10 @@
 
 namespace crane::supervisor {
 
-/// True while the axis is homed.
+/// True during homing of the axis.
 [[nodiscard]] bool is_homing(const TickMemory& memory, std::size_t axis);
 
-/// True when the brake of the axis opens. Brakes of all other axes stay closed.
+/// True when arming opens the brake of the axis: every present axis; during homing only the homed axis.
 [[nodiscard]] bool takes_part(const Limits& limits, const TickMemory& memory, std::size_t axis);
 
 [[nodiscard]] EnvelopeInput measured_now(const Limits& limits, const TickInput& input,

@@ -11,8 +11,8 @@ namespace {
 
 using Plane = PendulumMemory::Plane;
 
-constexpr double kLongestGap_s = 0.1;  // a longer time without samples clears the sum
-constexpr double kLeastDepth = 0.2;    // share of the cable; the check ignores a load that is higher
+constexpr double kLongestGap_s = 0.1;  // a longer time without samples clears the memory
+constexpr double kLeastDepth = 0.2;    // smallest depth of the balance / cable length: avoids a division by 0
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }
@@ -29,15 +29,15 @@ Plane shortened_along(const Plane& direction, double by, const Plane& a) {
   return a - std::copysign(std::min(std::abs(along), by), along) * unit;
 }
 
-/// From the frame of the jib to the ground, and back with the negative angle.
+/// Rotates a vector from the frame of the jib to that of the ground; the negative angle rotates it back.
 Plane turned(const Plane& a, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   return {c * a[0] - s * a[1], s * a[0] + c * a[1]};
 }
 
-/// Positions with the delay of the measured swing angles. Like the bridge, the filter takes one step per
-/// tick, and receives interpolated positions for the ticks without a sample.
-/// @param memory  recent[1] is the sample before
+/// Positions with the delay of the measured swing angles. As in the bridge, the filter takes one step per
+/// tick; ticks without a sample have interpolated positions.
+/// @param memory  recent[1] is the previous sample
 PerAxis filtered(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) {
   const control::FilterSection& filter = limits.machine.swing_filter;
   if (!limits.machine.swing_filtered) return input.position;
@@ -70,7 +70,7 @@ PendulumMemory::PastSample past_sample(const Limits& limits, const PendulumInput
           .depth_m = std::max(cable_m * std::cos(tangential) * std::cos(radial), kLeastDepth * cable_m)};
 }
 
-/// Balance of the newest three samples. @param slew_rad  angle of the jib in the middle sample
+/// Balance of the newest three samples.
 PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& memory) {
   const auto& [newest, middle, oldest] = memory.recent;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
@@ -89,7 +89,7 @@ PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& m
           .swing_change_mps = swing_change};
 }
 
-/// A direction that is not measured contributes nothing.
+/// Sets the component of a direction that is not measured to 0. @param slew_rad  newest angle of the jib
 Plane measured(const Limits& limits, const Plane& ground, double slew_rad) {
   Plane jib = turned(ground, -slew_rad);
   for (std::size_t i = 0; i < 2; ++i)
@@ -97,6 +97,7 @@ Plane measured(const Limits& limits, const Plane& ground, double slew_rad) {
   return turned(jib, slew_rad);
 }
 
+/// Adds the mean balance of the last kMeanSamples samples to the sum, reduced by the tolerances.
 void add(const Limits& limits, double cable_m, double slew_rad, double span_s, PendulumMemory& memory) {
   Plane error{}, swing_change{};
   for (const auto& balance : memory.balances) {
@@ -118,7 +119,7 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
 }
 
-/// @return true when an encoder that counted before the push has not counted since
+/// @return true when an encoder that counted before the push has not counted for kNoCount_ticks since
 bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
   bool stopped = false;
   const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};
@@ -136,6 +137,7 @@ bool follow_counts(const Limits& limits, const PendulumInput& input, double span
   return stopped;
 }
 
+/// @return true when a tolerated push explains the sum; clears the sum
 bool was_pushed(PendulumMemory& memory) {
   constexpr double kLeastShareOfSum = 0.5;
   const double length = norm(memory.sum_mps);

@@ -12,8 +12,7 @@ using L = const Limits&;
 using I = const Inputs&;
 using M = const Memory&;
 
-// ARMING waits for the bridge before it opens the brakes. After ARMING, a bridge that is not ready is a
-// cause.
+// ARMING waits for the bridge before the brakes open. After that, a bridge that is not ready is a cause.
 bool bridge_matters(M m) noexcept { return m.state != State::arming || m.releasing; }
 
 bool bridge_stopped(I in) noexcept { return in.bridge_latched || in.watchdog_dropped; }
@@ -29,14 +28,12 @@ bool opening_is_late(L limits, I in, M m) noexcept {
 constexpr const char* kCheckBrakes = "check the brakes, then restart the supervisor";
 constexpr const char* kWeldedRelay =
     "the contacts of the watchdog relay may be welded, or its contact input is wrong: check them, then "
-    "restart "
-    "the supervisor";
+    "restart the supervisor";
 constexpr const char* kBridgeStopped =
     "the bridge or its relay has stopped the crane: read the events of the bridge, then reset";
 constexpr const char* kTwoWriters =
     "two processes write the same topic, or one forges commands: end one of them, give each crane its own "
-    "name or domain, or "
-    "use keys (crane up --secure)";
+    "name or domain, or use keys (crane up --secure)";
 constexpr const char* kOtherConfiguration =
     "the processes have different rig files or controllers, the event names them: restart them with the same "
     "ones, then reset";
@@ -51,8 +48,7 @@ constexpr const char* kFollowing =
 constexpr const char* kSwing = "wait until the load swings less, then reset";
 constexpr const char* kZone =
     "`crane zone list` shows the zones, the event names the zone: let the load hang at rest, reset, arm, "
-    "then move "
-    "away from the zone, slowly at first";
+    "then move away from the zone, slowly at first";
 constexpr const char* kResetArm = "reset, then arm";
 
 // clang-format off

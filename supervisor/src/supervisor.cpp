@@ -10,7 +10,7 @@
 namespace crane::supervisor {
 namespace {
 
-/// Advances homing by one tick while an axis is homed. @return speed of the reference, unit/s
+/// Advances homing by one tick. @return speed of the reference, unit/s; 0 outside homing
 double creep(const Limits& limits, TickMemory& memory) {
   if (!memory.machine.homing || memory.machine.state != State::run) return 0;
   const std::size_t i = memory.homing_axis;
@@ -25,7 +25,7 @@ double creep(const Limits& limits, TickMemory& memory) {
                      memory.homing);
 }
 
-/// Until the self-test has passed, the position that the closed brakes must hold is set again in every tick.
+/// @return true when a closed brake does not hold. In BOOT and SELFTEST, every tick stores the position anew.
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
@@ -41,8 +41,8 @@ bool watch_relay(const Limits& limits, const TickInput& input, bool sampled, Tic
   return relay_failed(limits, input.now_s, !memory.sample.watchdog_dropped, memory.relay);
 }
 
-/// While an axis is homed, the other axes get 0 V, and the voltage of the homed axis is limited to
-/// volt_limit_v of its homing.
+/// During homing, the other axes get 0 V, and the voltage of the homed axis is limited to volt_limit_v of its
+/// homing.
 PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   PerAxis demand_v = input.demand_v;
   if (!memory.machine.homing || !std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); }))
@@ -64,7 +64,7 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
   return gate(limits, in, memory.gate);
 }
 
-/// The homed axis has no known position and is excluded; step_homing() checks its motion.
+/// Not checked during homing, because the position is unknown; step_homing() checks the motion.
 bool following_error_now(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return false;
   AxisFlags free{};
@@ -80,8 +80,8 @@ bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
   return failed && drives_active(memory.machine) && !memory.machine.homing;
 }
 
-/// While an axis is homed, its position is unknown and the zones have no effect. A demand that could lead
-/// into a zone is replaced by 0 V, from which the ramped stop starts.
+/// The zones have no effect during homing, because the position is unknown. A demand that could lead into a
+/// zone is replaced by 0 V, from which the ramped stop starts.
 ZoneVerdict guard_zones(const Limits& limits, bool sampled, GateOutput& gated, TickMemory& memory) {
   const ZoneInput in = zone_input(memory, gated.drive_v);
   if (sampled) observe_load(limits, in, memory.zones);

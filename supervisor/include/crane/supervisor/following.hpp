@@ -5,14 +5,14 @@
 /// of Gantry and Tower Cranes, under the voltages of the last two ticks. Each parameter is known only within
 /// a tolerance. The model therefore gives an interval [low, high] of accelerations:
 ///   gain of the drive  1 +- kGainTolerance, offset +- kOffset_v
-///   friction           0 to kFrictionRatioMax times the rig file's, plus kFrictionExtra_v, against the
+///   friction           0 to kFrictionRatioMax times that of the rig file plus kFrictionExtra_v, against the
 ///                      motion
-///   load               0 to kLoadRatioMax times the rig file's
+///   load mass          0 to kLoadRatioMax times that of the rig file
 /// Two sums add the changes of speed outside the interval (run_length.hpp):
 ///   above := max(0, above + dv - high dt),   below := max(0, below + low dt - dv)
 /// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample
-/// interval: the quantisation of the speeds at both ends of the sum. The quantisation of the speeds between
-/// them cancels.
+/// interval: the quantisation of the first and of the last speed of the sum. The quantisation of the other
+/// speeds cancels.
 ///
 /// Detection time of a voltage error of e volts: limit / (gain (e - tolerances)) + two ticks. False alarms:
 /// none while the parameters are within their tolerances; for a white disturbance of kOffset_v rms beyond
@@ -40,7 +40,7 @@ struct FollowingMemory {
     PerAxis applied_v{};
   };
   std::array<PastSample, 3> recent{};
-  std::array<int, kAxes> free_ticks{};  ///< number of consecutive samples with an open brake
+  std::array<int, kAxes> free_ticks{};  ///< consecutive samples with an open brake, at most 5
   PerAxis above{}, below{};  ///< sums of the change of speed above and below the interval, unit/s, >= 0
   PerAxis largest{};         ///< largest sum / limit so far; above 1 stops the crane
 };
@@ -51,8 +51,7 @@ inline constexpr double kOffset_v = 0.3;        ///< offset of converter and amp
 inline constexpr double kFrictionRatioMax = 1.5;
 inline constexpr double kFrictionExtra_v = 0.3;  ///< friction of a rig whose file gives none
 inline constexpr double kLoadRatioMax = 1.5;     ///< largest load mass / load mass of the rig file
-/// Permitted speed error as share of max_speed: the axis loses this speed within a quarter of its soft
-/// margin.
+/// Permitted speed error / max_speed. From this speed, an axis stops within a quarter of its soft margin.
 inline constexpr double kSpeedShare = 0.05;
 
 /// Sum that stops an axis with this speed, unit/s. @param span_s  time between two samples

@@ -1,5 +1,5 @@
 #pragma once
-/// The command gate. Every demand passes the gate before it reaches a drive. Order of the checks: finite,
+/// The command gate: every demand passes the gate before it reaches a drive. Order of the checks: finite,
 /// range, rate, age, stopping envelope.
 #include "crane/supervisor/envelope.hpp"
 
@@ -45,7 +45,8 @@ struct GateOutput {
 /// @post memory.last_v is unchanged: the caller stores the voltage that it sends
 [[nodiscard]] GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory) noexcept;
 
-/// Value of rate_pressure after a full reversal and ten more rate-limited ticks in a row; it stops the crane.
+/// Value of rate_pressure that stops the crane. A demand reaches it by a full reversal and ten more
+/// consecutive ticks with limited rate.
 [[nodiscard]] int rate_pressure_limit(const Limits& limits) noexcept;
 
 }  // namespace crane::supervisor

@@ -1,8 +1,8 @@
 #pragma once
-/// Homing of an axis: sequence of slow motions in which the bridge finds the position of the axis. The result
-/// of a tick is the speed of the reference. Planner and control laws follow this reference through the gate,
-/// as in every move. The bridge detects the mark independently (crane/bridge/homing.hpp); the second
-/// detection, at the approach speed, determines the position.
+/// Homing of an axis: a sequence of slow motions during which the bridge finds the position of the axis. Each
+/// tick returns the speed of the reference; planner, control laws and gate process this reference as in every
+/// move. The bridge detects the mark independently (crane/bridge/homing.hpp). The second detection, at the
+/// approach speed, determines the position.
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
@@ -27,12 +27,12 @@ struct HomingMemory {
   HomingPhase phase = HomingPhase::leave_at_first;
   HomingFailure failure = HomingFailure::none;
   bool started = false;
-  bool other_left =
-      false;             ///< true: in an earlier tick, no limit switch other than the homing mark was pressed
-  int ticks = 0;         ///< number of ticks in this phase
-  int still_ticks = 0;   ///< number of ticks without progress
-  double from = 0;       ///< position at the start of this phase
-  double opened_at = 0;  ///< last position at which the mark was active
+  /// true: in an earlier tick, no limit switch other than the homing mark was pressed
+  bool other_left = false;
+  int ticks = 0;           ///< number of ticks in this phase
+  int still_ticks = 0;     ///< number of ticks without progress
+  double from = 0;         ///< position at the start of this phase
+  double opened_at = 0;    ///< last position at which the mark was active
   double progress_at = 0;  ///< position at the last progress
 };
 

@@ -55,7 +55,7 @@ struct Limits : control::OperatingLimits {
   int overruns_in_row = 3;
   /// time without a cause before a reset, and with complete inputs before arming, >= 0
   double clear_time_s = 1;
-  double standstill_time_s = 0.1;  ///< > 0
+  double standstill_time_s = 0.1;  ///< time near one position that counts as standstill, > 0
   double c1_ramp_time_s = 0.02;    ///< duration of the ramp from full voltage to 0 V, in [0, 0.02]
   double stop_timeout_s = 8;       ///< longest controlled stop; a ramped stop follows, > 0
   double arm_match_time_s = 5;     ///< longest wait of ARMING for a demand near zero and a ready bridge, > 0
@@ -67,8 +67,8 @@ struct Limits : control::OperatingLimits {
   double relay_timeout_s = 0.05;  ///< longest time from the last toggle until the relay opens, > 0
   /// longest time from the end of relay_timeout_s until the relay reports open, > 0
   double relay_report_time_s = 0.1;
-  double load_still_rad = 0.005;  ///< largest swing of a load that is at rest when a bridge starts, > 0
-  /// duration of the watch of the load after a restart of the bridge, >= clear_time_s
+  double load_still_rad = 0.005;  ///< largest swing that counts as rest after a restart of the bridge, > 0
+  /// time after a restart of the bridge in which the load must stay at rest, >= clear_time_s
   double load_watch_s = 10;
   MachineModel machine{};
   control::Clearance clearance{};
@@ -86,8 +86,8 @@ struct Limits : control::OperatingLimits {
 /// Number of ticks of a ramped stop, at least 1. The command of the last tick is 0 V with closed brakes.
 [[nodiscard]] int ramp_ticks(const Limits& limits) noexcept;
 
-/// t_detect + t_react + t_brake: one tick until the next sample shows the cause; the ramp, including the
-/// delay of one tick of each command; the closing time of the brake.
+/// t_detect + t_react + t_brake, s. t_detect: one tick until the next sample shows the cause; t_react: the
+/// ramp, including the delay of one tick of each command; t_brake: the closing time of the brake.
 [[nodiscard]] double stopping_time_s(const Limits& limits, std::size_t axis) noexcept;
 
 /// v (t_detect + t_react + t_brake) + v^2 / 2a, for |speed|; unit.

@@ -1,5 +1,5 @@
 #pragma once
-/// Speeds and standstill, computed from positions only, independent of the filters of the bridge.
+/// Speeds and standstill, computed from the positions only. The filters of the bridge have no effect.
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
@@ -31,7 +31,7 @@ struct BrakeMemory {
   PerAxis speed{};     ///< unit/s
 };
 
-/// Homing has set the present position of the axis to `position`. Call this before the first sample with the
+/// Call when homing has set the present position of the axis to `position`, before the first sample with the
 /// new position.
 void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
                         BrakeMemory& brakes) noexcept;

@@ -2,8 +2,8 @@
 /// Check of the swing encoders: compares the measured load with a pendulum under the measured trolley. In
 /// coordinates of the ground, with the equation numbers of H. M. Omar, Control of Gantry and Tower Cranes,
 ///   r'' = -(g + z'') (r - p) / h                                                     (2.11), (2.18), (2.19)
-/// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
-/// depth below the jib. All of them are measured. Therefore the balance of one sample
+/// r and p: horizontal positions of load and trolley, z = -h: height of the load relative to the jib. All
+/// three are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
 /// does not depend on drives, friction or load mass. The mean of e over kMeanSamples samples is summed as a
 /// vector (run_length.hpp) and reduced by the tolerances. The tolerances for the zero error kZeroError_rad,
@@ -65,16 +65,15 @@ struct PendulumMemory {
   std::array<control::FilterMemory, kAxes> filter{};  ///< of the positions, if the angles are filtered
   bool filter_started = false;
   PerAxis unfiltered_position{};  ///< of the newest sample
-  int filter_ticks_left = 0;      ///< until the filter of the positions has settled; the sum is 0 before
+  int filter_ticks_left = 0;      ///< ticks until the filter of the positions has settled; > 0: the sum is 0
   std::array<Balance, kMeanSamples> balances{};
   std::size_t next = 0;  ///< index of the next balance
   Plane sum_mps{};
   Plane swing_change_mps{};             ///< change of the swing speed within the last kMeanSamples samples
-  int growing_ticks = 0;                ///< number of ticks with a sum above 0
+  int growing_ticks = 0;                ///< consecutive ticks with a sum above 0, at most kPush_ticks + 1
   double push_left_s = 0;               ///< time until another push is permitted; <= 0: at once
   std::array<double, 2> swing_rad{};    ///< newest, radial and tangential
-  std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted recently; number of ticks for which
-                                        ///< this still holds
+  std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted within the last 2 kPush_ticks ticks
   std::array<int, 2> no_count_ticks{};  ///< ticks without a count since the push
   std::array<bool, 2> counted_before_push{};
   double largest = 0;  ///< largest sum / limit so far; above 1 is a failure

@@ -1,7 +1,7 @@
 #pragma once
-/// Restart of the bridge beside a running supervisor. The new bridge sets its counters to [start] of the rig
-/// file and its swing encoders to zero. These values are wrong when an axis was at another position or the
-/// load was swinging; the supervisor compares them with its last samples of the old bridge.
+/// Restart of the bridge while the supervisor runs. The new bridge sets its counters to [start] of the rig
+/// file and its swing encoders to zero. These values are wrong if an axis was at another position or the load
+/// was swinging. Therefore the supervisor compares them with the last samples of the old bridge.
 #include "crane/supervisor/motion.hpp"
 
 namespace crane::supervisor {
@@ -9,7 +9,7 @@ namespace crane::supervisor {
 struct RestartMemory {
   AxisFlags doubted{};               ///< true: the measured position of the axis may be wrong
   bool swing_zero_doubtful = false;  ///< true: the measured swing angles may be wrong
-  bool watching = false;             ///< true: the watch of the load continues
+  bool watching = false;             ///< true: watch_load() checks the swing
   double since_s = 0;                ///< time of the last restart
 };
 
@@ -23,7 +23,8 @@ struct RestartMemory {
 void take_over(const Limits& limits, double now_s, const MotionMemory& before, const AxisFlags& known,
                const PerAxis* position, RestartMemory& memory) noexcept;
 
-/// A load that moves soon after the restart was swinging when the new bridge set its swing encoders to zero.
+/// A swing above load_still_rad within load_watch_s shows that the load was swinging when the new bridge set
+/// its swing encoders to zero.
 void watch_load(const Limits& limits, double now_s, double swing_radial_rad, double swing_tangential_rad,
                 RestartMemory& memory) noexcept;
 

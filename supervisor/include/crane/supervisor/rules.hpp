@@ -27,7 +27,7 @@ struct Rule {
   Scope scope;
   bool blocks;  ///< true: the cause also refuses a reset, and takes READY back to LOCKED
   bool (*holds)(const Limits&, const Inputs&, const Memory&) noexcept;
-  const char* predicate;  ///< meaning of `holds` in words
+  const char* predicate;  ///< condition of `holds` in words
   const char* detection;  ///< time from the first sample that shows the cause to the reaction
   const char* remedy;     ///< action of the operator; never empty
 };

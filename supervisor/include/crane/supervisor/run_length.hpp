@@ -16,7 +16,7 @@ namespace crane::supervisor {
 /// @param sigma      standard deviation of the disturbance per sample, > 0, same unit
 /// @param threshold  threshold of the sum, same unit
 [[nodiscard]] inline double average_run_length(double drift, double sigma, double threshold) noexcept {
-  constexpr double kOvershoot = 1.166;  // mean excess of a normal random walk over both boundaries, in sigma
+  constexpr double kOvershoot = 1.166;  // mean overshoot of a normal random walk at both boundaries, sigma
   const double d = drift / sigma, b = threshold / sigma + kOvershoot;
   return (std::exp(2 * d * b) - 2 * d * b - 1) / (2 * d * d);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// State machine of the supervisor. A pure function; the inputs of one tick, memory and time are arguments.
+/// State machine of the supervisor: a pure function of the inputs of one tick, the memory and the time.
 #include "crane/supervisor/envelope.hpp"
 #include "crane/supervisor/following.hpp"
 
@@ -17,8 +17,8 @@ enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home 
 inline constexpr std::size_t kRequests = 7;
 using Requests = std::array<bool, kRequests>;  ///< indexed by Request; true: requested in this tick
 
-/// Inputs of one tick. The value false of a flag is healthy, unless the comment of the flag begins with
-/// "true:".
+/// Inputs of one tick. Flags: false = healthy; where a comment begins with "true:", the comment states the
+/// meaning.
 struct Inputs {
   double now_s = 0;  ///< s, clock of the supervisor (TickInput::now_s)
   SelfTest self_test = SelfTest::not_started;
@@ -77,7 +77,12 @@ struct Memory {
   bool homing = false;  ///< true: the crane is armed only to home one axis
 };
 
-enum class Volts : std::uint8_t { zero, pass, ramp };
+/// Voltage of the drives.
+enum class Volts : std::uint8_t {
+  zero,  ///< 0 V
+  pass,  ///< output of the gate
+  ramp   ///< Outputs::ramp_factor times the voltage at the start of the ramp
+};
 
 /// Answer to one request. `reason` states cause and remedy of a refusal; it is empty for an accepted request.
 struct Answer {
@@ -90,7 +95,7 @@ struct Outputs {
   State state = State::boot;
   Cause cause = Cause::start;  ///< none in READY, ARMING, HOLD and RUN
   Volts volts = Volts::zero;
-  double ramp_factor = 0;      ///< Volts::ramp: share of the voltage at the start of the ramp, in [0, 1)
+  double ramp_factor = 0;      ///< of Volts::ramp, in [0, 1)
   bool brake_release = false;  ///< true: open the brakes of all present axes; while homing, of the homed axis
   bool homing = false;
   bool watchdog_permission = false;

@@ -73,15 +73,15 @@ struct TickMemory {
   FollowingMemory following{};
   PendulumMemory pendulum{};
   ZoneMemory zones{};
-  Sample sample{};  ///< newest
+  Sample sample{};  ///< newest usable sample
   int state_missing_in_row = 0;
   int overruns_in_row = 0;
   PerAxis ramp_from_v{};       ///< V, voltage at the start of the ramp
   PerAxis release_position{};  ///< positions when the brakes were commanded open
 };
 
-/// Newest sample and motion as input of the zone filter. @param gate_output_v  V, output of the gate in this
-/// tick
+/// Newest sample and motion as input of the zone filter.
+/// @param gate_output_v  V, output of the gate in this tick
 [[nodiscard]] ZoneInput zone_input(const TickMemory& memory, const PerAxis& gate_output_v) noexcept;
 
 /// Fields of crane/supervisor; false = healthy.

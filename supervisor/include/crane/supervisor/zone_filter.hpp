@@ -1,7 +1,7 @@
 #pragma once
 /// Predictive safety filter of the no-go zones (docs/zones.md). In each tick the filter bounds the reached
-/// space: the space that load, hook and cable can reach if the voltages of this tick act and the next tick
-/// begins a ramped stop (0 V, then closed brakes). If the reached space touches a zone, the filter replaces
+/// space: the reachable set of load, hook and cable if the voltages of this tick act and the next tick begins
+/// a ramped stop (0 V, then closed brakes). If the reached space touches a zone, the filter replaces
 /// the voltages by 0 V, and the ramped stop begins in this tick. The reached space of the previous tick
 /// touched no zone and contains the motion of this stop. By induction the load stays out of the zones,
 /// whatever the controllers demand.
