@@ -64,7 +64,7 @@ std::size_t SharedFile::size() const {
 }
 
 void* SharedFile::map(std::size_t wanted) {
-  // Takes the memory now: an access to memory that the computer does not have ends the process with SIGBUS.
+  // Allocates the memory now: an access to memory that is not available ends the process with SIGBUS.
   if (const int error = ::posix_fallocate(file_, 0, static_cast<off_t>(wanted)); error != 0)
     throw refused(name_, std::strerror(error));
   void* memory = ::mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);

@@ -30,8 +30,8 @@ std::vector<runtime::Write> bridge_writes() {
 
 namespace {
 
-/// The bridge ignores commands that answer older ticks, except 0 V with closed brakes. LastLine latches
-/// command_stale long before this time.
+/// Largest age of the state that a command answers. The bridge ignores later commands, except 0 V with closed
+/// brakes; LastLine latches command_stale long before.
 constexpr double kNewestCommands_s = 1;
 
 /// True for 0 V with closed brakes. Such a command is accepted with any sample time.
@@ -95,8 +95,8 @@ bool Bridge::poll(std::int64_t now_ns) {
   return true;
 }
 
-/// Latches all inputs. In real time `now_ns` becomes the time of the latch. A latch that took long is
-/// repeated: the computer may have paused between the reading of the clock and the latch.
+/// Latches all inputs. In real time, `now_ns` becomes the time of the latch, and a slow latch is repeated:
+/// the computer may have paused between the reading of the clock and the latch.
 Inputs Bridge::latch(std::int64_t& now_ns) {
   if (clock_ == runtime::Clock::lockstep) {
     board_->advance_to(static_cast<std::int64_t>(tick_ ? *tick_ + 1 : 0) * period_ns_);
@@ -195,7 +195,8 @@ Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t 
           .late_s = static_cast<double>(sample_time_ns - due_ns) / 1e9};
 }
 
-/// A position that becomes known is published from the next tick on. A doubtful position becomes unknown.
+/// Homes the axes. A position that becomes known is published from the next tick on; a doubtful position
+/// becomes unknown.
 void Bridge::look_for_marks(const Observation& observation) {
   for (std::size_t i = 0; i < kDrives; ++i) {
     if (last_line_.doubted()[i]) homing_.forget(i);
@@ -280,12 +281,11 @@ void Bridge::report_latch() {
   reported_ = reason;
 }
 
-/// Reports a relay that opens without a latch of the bridge. No other process can measure the delay of the
-/// toggles.
+/// Reports a relay that opens without a latch of the bridge. Only the bridge knows the delays of the toggles.
 void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
-  const auto tick_ns = now_ns - ticked_ns_;
+  const auto interval_ns = now_ns - ticked_ns_;
   if (relay_closed_ && inputs.watchdog_dropped && toggles_ && !inputs.estop_pressed) {
-    const auto late_ms = std::llround(static_cast<double>(std::max(tick_ns, last_tick_ns_)) * 1e-6);
+    const auto late_ms = std::llround(static_cast<double>(std::max(interval_ns, interval_ns_)) * 1e-6);
     node_.error("relay_dropped",
                 "the watchdog relay dropped while its output toggled, the last time after " +
                     std::to_string(late_ms) + " ms",
@@ -295,7 +295,7 @@ void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
   relay_closed_ = !inputs.watchdog_dropped;
   toggles_ = command_ && command_->watchdog_permission && last_line_.reason() == Reason::none;
   ticked_ns_ = now_ns;
-  last_tick_ns_ = tick_ns;
+  interval_ns_ = interval_ns;
 }
 
 }  // namespace crane::bridge

@@ -1,4 +1,5 @@
-/// The checks of LastLine, one function per reason. Every comparison is written so that NaN fails.
+/// The checks of LastLine, one function per reason. A NaN in a command fails command_not_finite, a NaN in a
+/// coordinate fails encoder_jump.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +23,7 @@ double seconds(const LastLineParameters& parameters, const CheckInput& input, st
   return std::max(static_cast<double>(elapsed_ns) / 1e9, kShortest_periods * parameters.period_s);
 }
 
-/// Mean speed in the tick that ended `age` entries ago.
+/// Mean speed in the tick that ended `age` entries ago, unit/s.
 double speed(const LastLineParameters& parameters, const CheckInput& input, std::size_t coordinate,
              std::size_t age = 0) {
   const auto& history = *input.history;
@@ -176,7 +177,7 @@ bool braked_motion(const LastLineParameters& parameters, const CheckInput& input
   });
 }
 
-constexpr std::int64_t kFlicker_counts = 2;  // noise of an encoder between two counts
+constexpr std::int64_t kFlicker_counts = 2;  // largest change of the counts of an axis at rest
 
 bool unmoved(const History& history, std::size_t i, std::size_t newer, std::size_t older) {
   return std::abs(history[newer].observation.counts[i] - history[older].observation.counts[i]) <=
@@ -199,7 +200,7 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
 /// the load.
 bool motion_is_missing(const LastLineParameters& parameters, const AxisLine& axis, const History& history,
                        std::size_t i) {
-  constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the play of a gear
+  constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
   double distance = 0, speed = 0;
   for (std::size_t age = ticks_without_motion(history, i); age-- > 0;) {
     const double net_v =
@@ -229,8 +230,8 @@ bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& inpu
   });
 }
 
-/// Gain of speed, in volts, beyond the gain that the commands of the last ticks explain. Friction and brakes
-/// only reduce the speed and are ignored.
+/// Gain of speed beyond that of the commands of the last ticks, as voltage, V. Friction and brakes only
+/// reduce the speed and are ignored.
 double unexplained_v(const LastLineParameters& parameters, const CheckInput& input, std::size_t i,
                      std::size_t age) {
   const auto ticks = [&parameters](double time_s, std::size_t most) {

@@ -65,7 +65,7 @@ std::optional<std::int64_t> Homing::step(std::size_t i, const MarkView& view) no
   return shift;
 }
 
-/// Position of the mark: the mean of the two readings between which the switch changes.
+/// Detects the mark. Its position is the mean of the two readings between which the switch changes.
 void Homing::look(Axis& axis, const MarkView& view) noexcept {
   const auto change = static_cast<double>(view.counts - axis.last_counts);
   const double at = static_cast<double>(axis.last_counts) + change / 2;

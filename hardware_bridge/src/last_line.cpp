@@ -58,8 +58,8 @@ void LastLine::observe(std::uint64_t tick, const Observation& observation) noexc
   history_.add(entry);
 }
 
-/// Stores the coordinate at the tick at which the closed brake has stopped the axis. From then on the axis
-/// must stay at this coordinate.
+/// Stores the coordinate at which the closed brake has stopped the axis. From then on the axis must stay
+/// there.
 void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Observation& observation) noexcept {
   if (executed_.brake_release[axis]) {
     commanded_closed_[axis] = false;
@@ -86,7 +86,7 @@ Reason LastLine::first_failure(const CheckInput& input) const noexcept {
   return failed == checks_.end() ? Reason::none : failed->reason;
 }
 
-/// The latch is not final when all doubtful counters belong to axes that can be homed.
+/// Latches `reason`. The latch is not final when all doubtful counters belong to axes with a homing mark.
 void LastLine::latch(Reason reason, const CheckInput& input) noexcept {
   reason_ = reason;
   if (reason == Reason::none) return;

@@ -7,7 +7,7 @@
 namespace crane::bridge {
 namespace {
 
-/// Smallest and largest acceleration per volt: with the whole load mass and without the load.
+/// Smallest gain: with the whole load mass; largest gain: without load.
 void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double load_kg = crane.load_mass_kg;
@@ -26,7 +26,7 @@ void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
   }
 }
 
-/// Volts that balance the force of the load at the swing limit of the supervisor.
+/// Voltage that balances the force of the load at the swing limit of the supervisor, V.
 double load_pull_v(std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double force_n = crane.load_mass_kg * crane.gravity_mps2 * std::sin(rig.limits.swing_limit_rad);

@@ -40,7 +40,7 @@ void Coordinate::step(std::int32_t raw_counts, const Latched& latched) noexcept 
     gridded_ = position_;
     rate_ = 0;
   }
-  constexpr std::uint64_t kMostFilled = 100;  // after a longer pause the axis is at rest
+  constexpr std::uint64_t kMostFilled = 100;  // ticks; after a longer pause the axis is at rest
   const double target = position_ - rate_ * latched.late_s;
   const auto steps = std::clamp<std::uint64_t>(latched.ticks, 1, kMostFilled);
   for (std::uint64_t i = 1; i < steps; ++i)
@@ -57,8 +57,8 @@ void Coordinate::shift(std::int64_t change) noexcept {
 
 namespace {
 
-/// The rig file selects the axes whose position is filtered before it is differentiated: on the rig this
-/// filter makes the trolley oscillate (section 4.4.1). Swing angles are always filtered for their rates.
+/// The rig file selects the axes whose position is filtered before the differentiation: on the Virginia Tech
+/// rig, this filter makes the trolley oscillate (section 4.4.1). The rates of the swing are always filtered.
 Coordinate coordinate(const configuration::Rig& rig, std::size_t counter) {
   const bool swing = counter >= plant::kAxes;
   const bool filtered = swing || rig.sensing.filter_speed[counter];

@@ -13,7 +13,7 @@
 namespace crane::bridge {
 namespace {
 
-constexpr double kNeeded_v = 9.9;  // the range of a calibrated board ends a little below 10 V
+constexpr double kNeeded_v = 9.9;  // smallest range: that of a calibrated board ends a little below 10 V
 constexpr int kFirstOutputLine = 16;
 constexpr lsampl_t k24Bits = 0xFFFFFF;
 
@@ -131,7 +131,7 @@ void Comedi::start_counter(const Counter& counter) {
                                 NI_GPCT_COUNTING_MODE_QUADRATURE_X4_BITS) < 0 ||
       ::comedi_arm_channel(handle_.device, subdevice, counter.channel, NI_GPCT_ARM_IMMEDIATE) < 0)
     fail(label + " does not count quadrature: use another board");
-  // Presets the counter last, because some drivers reset it at every configuration.
+  // The counter is preset last: some drivers reset the counter at every configuration.
   const auto wanted = static_cast<lsampl_t>(counter.start_counts) & k24Bits;
   lsampl_t found = 0;
   if (::comedi_data_write(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, wanted) < 0 ||

@@ -26,7 +26,7 @@ bool EmulatedBoard::kick(double radial_radps, double tangential_radps) {
   return true;
 }
 
-/// The crane at the plugs of the emulated card is a separate process, crane_emulated_rig.
+/// The crane at the connectors of the emulated card runs in a separate process, crane_emulated_rig.
 std::unique_ptr<Board> make_emulated_board(const configuration::Rig& rig, const bus::Options& bus) {
   return std::make_unique<EmulatedBoard>(
       rig, std::make_unique<LinkedRig>(shared_lines_name(bus.crane, bus.domain)));

@@ -153,7 +153,7 @@ void EmulatedServoToGo::load_timer_0(std::uint8_t value) noexcept {
   state_.timer_begin_ns = connector_.now_ns();
 }
 
-/// Each end of a period latches all counters.
+/// Ends the periods that have passed; the end of a period latches all counters.
 void EmulatedServoToGo::let_time_pass() noexcept {
   if (state_.timer_period_ns == 0) return;
   const auto periods = (connector_.now_ns() - state_.timer_begin_ns) / state_.timer_period_ns;

@@ -77,9 +77,9 @@ void LinkedRig::advance_to(std::int64_t time_ns) {
       throw BoardError("the emulated rig does not answer: look for its message, then start the stack again");
 }
 
-/// The counters of a real card continue to count while the computer pauses, so that a latch always gives the
-/// present positions. If the rig does not answer, the lines keep their values; require_alive() detects the
-/// end of the rig.
+/// Advances the rig to the present time: like the counters of a real card, the emulated counters continue to
+/// count while the computer pauses. If the rig does not answer, the lines keep their values; require_alive()
+/// detects the end of the rig.
 void LinkedRig::advance_to_now() {
   const auto now_ns = monotonic_ns();
   lines_->until_ns = now_ns;

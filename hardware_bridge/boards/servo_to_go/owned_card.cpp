@@ -13,8 +13,8 @@
 namespace crane::bridge {
 namespace {
 
-/// A name that one socket of this network namespace has. Nobody can remove it, and the kernel releases it
-/// when its process ends for any reason.
+/// A socket name that only one process of this network namespace can have. No user can remove the name; the
+/// kernel releases it when the process ends.
 class SocketName {
  public:
   SocketName() : socket_{::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)} {

@@ -55,8 +55,8 @@ std::string_view ServoToGo::name() const {
   return model_ == 1 ? "servo_to_go model 1" : "servo_to_go model 2";
 }
 
-/// Reads the serial number: each of eight readings has one bit and its index. Before this check the driver
-/// writes to no port.
+/// Reads the serial number: each of eight readings contains one bit and its index. The driver writes to no
+/// port before this check.
 int ServoToGo::recognised_model() const {
   unsigned serial = 0, seen = 0, reading = 0;
   for (std::size_t i = 0; i < kChannels; ++i) {

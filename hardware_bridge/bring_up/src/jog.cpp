@@ -18,7 +18,7 @@ bool new_limit(const bridge::Inputs& before, const bridge::Inputs& now) {
   return false;
 }
 
-/// Largest motion of a drive's counter since `before`.
+/// Largest motion of a drive since `before`, by its counter, m or rad.
 double farthest(const Sample& before, const Sample& now) {
   double distance = 0;
   for (std::size_t i = 0; i < kDrives; ++i)
@@ -80,7 +80,7 @@ class Running {
     double passed_s = 0;
     for (; passed_s < allowed_s; passed_s += period_s) step({}, {});
     jog_.closed_again = session_.sample().inputs.brake_closed[plan_.axis];
-    // Waits until the suspension point is at rest. Waits one second longer for a brake that closes late.
+    // Waits 0.3 s, until the suspension point is at rest; for a brake that closes late, at most 1.5 s.
     for (; passed_s < 0.3 || (passed_s < 1.5 && !session_.sample().inputs.brake_closed[plan_.axis]);
          passed_s += period_s)
       step({}, {});

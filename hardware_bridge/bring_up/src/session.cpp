@@ -67,7 +67,7 @@ Record Session::watch(double duration_s) {
 }
 
 void Session::wake() {
-  constexpr double kCharging_s = 0.2;  // time of the charge pump until its relay closes
+  constexpr double kCharging_s = 0.2;  // longest time of the charge pump until its relay closes
   for (double passed_s = 0; passed_s < kCharging_s; passed_s += rig_.period_s) awake({}, {});
 }
 

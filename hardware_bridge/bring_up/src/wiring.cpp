@@ -201,7 +201,7 @@ class Judgement {
     const auto& axis = evidence_.axis[i];
     for (std::size_t k = 0; k < kDrives; ++k)
       if (k != i && std::abs(axis.moved[k]) > kStandstill) return k;
-    for (std::size_t k = 0; k < kSwings; ++k)  // the load swings back; an axis does not move back
+    for (std::size_t k = 0; k < kSwings; ++k)  // a load swings back; an axis keeps its new position
       if (std::abs(axis.shifted_rad[k]) > 2 * kNoSwing_rad) return kDrives + k;
     return {};
   }

@@ -1,7 +1,7 @@
 #pragma once
 /// Interface between the bridge and a rig: counters, analog and digital lines, a watchdog output, and time.
-/// The simulated plant and the drivers of the boards implement this interface; the loop of the bridge is the
-/// same for all of them.
+/// The simulated plant and the drivers of the boards implement this interface; the bridge has the same loop
+/// for every board.
 #include <array>
 #include <cstdint>
 #include <stdexcept>
@@ -16,7 +16,7 @@ inline constexpr std::size_t kDrives = 3;    ///< trolley, slew, hoist
 struct Inputs {
   std::array<std::int32_t, kCounters> raw_counts{};  ///< 24-bit two's complement, sign-extended; wraps
   std::array<bool, kDrives> limit_low{}, limit_high{};
-  std::array<bool, kDrives> mark{};  ///< rigs with Mark::input; true: the axis is below its homing mark
+  std::array<bool, kDrives> mark{};  ///< Mark::input; true: the axis is at or below its homing mark
   std::array<bool, kDrives> brake_closed{};
   bool estop_pressed = false;
   bool watchdog_dropped = false;  ///< true: the relay has removed the brake supply

@@ -18,7 +18,7 @@
 
 namespace crane::bridge {
 
-/// `reads` and `writes` of every component that runs a Bridge.
+/// Topics of every component that runs a Bridge.
 [[nodiscard]] std::vector<runtime::Read> bridge_reads();
 [[nodiscard]] std::vector<runtime::Write> bridge_writes();
 
@@ -76,10 +76,10 @@ class Bridge : public runtime::Component {
   std::array<double, kDrives> unit_per_count_{};  ///< m or rad per count, with the sign of the encoder
   std::array<double, kDrives> applied_v_{};       ///< output voltages of the converters, positive outward
   Reason reported_ = Reason::none;
-  bool relay_closed_ = false;      ///< state of the relay at the last tick
-  bool toggles_ = false;           ///< true: the watchdog output toggled at the last tick
-  std::int64_t ticked_ns_ = 0;     ///< time of the last tick
-  std::int64_t last_tick_ns_ = 0;  ///< duration between the last two ticks
+  bool relay_closed_ = false;     ///< state of the relay at the last tick
+  bool toggles_ = false;          ///< true: the watchdog output toggled at the last tick
+  std::int64_t ticked_ns_ = 0;    ///< time of the last tick
+  std::int64_t interval_ns_ = 0;  ///< time between the last two ticks
 };
 
 }  // namespace crane::bridge

@@ -40,7 +40,7 @@ struct Observation {
   bool second_writer = false;  ///< true: crane/command has had a second writer within the last second
 };
 
-/// LatchReason in idl/crane.idl has the meanings and the same numbers.
+/// Numbers and meanings are those of LatchReason in idl/crane.idl.
 enum class Reason : std::uint8_t {
   none,
   command_stale,
@@ -67,13 +67,13 @@ inline constexpr std::size_t kReasons = 15;
 /// the latch, and the positions of these axes stay unknown until homing.
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
-/// Parameters of one drive axis; unit is m or rad. A limit switch that closes farther inside the travel than
-/// the soft margin indicates a wrong position.
+/// Parameters of one drive axis; unit is m or rad. A limit switch that operates farther inside the travel
+/// than the soft margin indicates a wrong position.
 struct AxisLine : control::DriveLimits {
-  double certain_motion_v = 5;   ///< a larger voltage moves the axis against any friction and load, V
-  double creeping_motion_v = 2;  ///< as certain_motion_v, while the axis is being homed, V
-  /// Voltage beyond the commands. A gain of speed that needs more counts as a fault of the drive, V.
-  double response_margin_v = 2.5;
+  double certain_motion_v = 5;     ///< a larger voltage moves the axis against any friction and load
+  double creeping_motion_v = 2;    ///< as certain_motion_v, during homing of the axis
+  double response_margin_v = 2.5;  ///< gain of speed beyond that of the commands that indicates a fault, as
+                                   ///< voltage
   /// Smallest and largest gain: unit/s^2 per volt when lag_s is 0, otherwise unit/s per volt.
   double gain_low = 0;
   double gain_high = 0;
@@ -84,7 +84,7 @@ struct LastLineParameters {
   double period_s = 0.01;
   std::uint64_t stale_after_ticks = 5;  ///< age of the newest command that stops the crane
   std::array<AxisLine, kDrives> axis{};
-  double swing_limit_rad = 1.05;     ///< larger than the limit of the supervisor, which reacts first
+  double swing_limit_rad = 1.05;     ///< above the limit of the supervisor, which reacts first
   double swing_rate_max_radps = 10;  ///< a larger rate cannot be a motion of the load
   std::array<bool, 2> swing_present{};
 };
@@ -122,11 +122,11 @@ struct CheckInput {
   const CommandView* command = nullptr;  ///< newest command; null: no command since the start
   CommandView before;                    ///< last executed command; default-constructed after a latch
   const History* history = nullptr;      ///< includes this tick
-  /// Coordinate at which the closed brake stopped the axis; nothing while the axis is not stopped by its
-  /// brake.
+  /// Coordinate at which the closed brake stopped the axis, m or rad; nothing: no brake has stopped the axis.
   std::array<std::optional<double>, kDrives> braked_at{};
 };
 
+/// One check: `fails` returns true when `reason` must be latched.
 struct Check {
   Reason reason;
   bool (*fails)(const LastLineParameters&, const CheckInput&) noexcept;
@@ -149,8 +149,9 @@ class LastLine {
   [[nodiscard]] Outputs decide(const std::optional<CommandView>& command, std::uint64_t tick,
                                const Observation& observation) noexcept;
 
-  /// The latched reason. A latch that is not final ends when new commands first withhold and then grant the
-  /// watchdog permission. The supervisor withholds it in the stop, and grants it after the operator's reset.
+  /// The latched reason. A latch that is not final ends when fresh commands with 0 V and closed brakes first
+  /// withhold and then grant the watchdog permission. The supervisor withholds the permission in STOP_C0, and
+  /// grants it after the reset by the operator.
   [[nodiscard]] Reason reason() const { return reason_; }
   /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }
@@ -172,7 +173,7 @@ class LastLine {
   Reason reason_ = Reason::none;
   CommandView before_;
   Outputs executed_;
-  /// Tick by which the closed brake has stopped its axis.
+  /// First tick at which a closed brake must have stopped its axis.
   std::array<std::uint64_t, kDrives> rests_from_tick_{};
   std::array<bool, kDrives> commanded_closed_{};
   std::array<std::optional<double>, kDrives> braked_at_{};

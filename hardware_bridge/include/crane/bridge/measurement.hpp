@@ -58,7 +58,7 @@ class Coordinate {
   std::int64_t counts_ = 0;
   double position_ = 0, rate_ = 0;
   double smooth_ = 0;   ///< output of the low-pass filter
-  double gridded_ = 0;  ///< position at the nominal time of the last tick
+  double gridded_ = 0;  ///< position extrapolated to the nominal time of the last tick
 };
 
 class MeasurementPipeline {

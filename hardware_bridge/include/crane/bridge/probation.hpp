@@ -2,7 +2,7 @@
 /// Quiet time of a new writer of crane/command. The bridge executes the commands of a new writer only after
 /// the writer has sent quiet commands for kQuiet_s: 0 V, closed brakes, no homing, no watchdog permission. A
 /// supervisor sends quiet commands for longer (self-test, then 1 s without a cause before a reset). A program
-/// that commands a motion at once therefore moves nothing, even when no supervisor runs. Discovery reports a
+/// that commands motion at once moves nothing, even when no supervisor runs. Discovery reports a
 /// second writer within the quiet time. Pure.
 #include <cstdint>
 #include <optional>

@@ -1,14 +1,13 @@
 #pragma once
-/// Driver of boards with a driver of Linux comedi (libcomedi): counters, analog outputs and digital lines of
+/// Driver of all boards that Linux comedi supports (libcomedi): counters, analog outputs and digital lines of
 /// the subdevices in [wiring] of the rig file.
 ///
-/// Counters: 24 bit or more, of which the lowest 24 are used; quadrature, four counts per line. One
-///   instruction list reads all counters and the inputs. The counters are preset at the start
-///   (start_counts()).
+/// Counters: at least 24 bits, of which the lowest 24 are used; quadrature, four counts per line. One
+///   instruction list reads all counters and the inputs. The start presets the counters (start_counts()).
 /// Converters: any resolution, with a range of at least +-9.9 V. Voltages are limited to the range; a value
 ///   that is not finite gives 0 V.
 /// Lines: input 0..15 is channel 0..15 of the input subdevice, output 16..31 is channel 0..15 of the output
-///   subdevice. Inputs are active low (contacts closed in normal operation). Outputs: on is high.
+///   subdevice. Inputs are active low (normally closed contacts). Outputs: on is high.
 #include <array>
 #include <cstdint>
 #include <initializer_list>

@@ -1,5 +1,5 @@
 #pragma once
-/// The driver of the Servo-to-Go card on an emulated card and rig. The driver is the same as for a real card.
+/// The driver of the Servo-to-Go card, as for a real card, on an emulated card with an emulated rig.
 #include <memory>
 
 #include "crane/boards/emulated_rig.hpp"

@@ -1,6 +1,7 @@
 #pragma once
-/// The rig at the connectors of an emulated card, and its time. It runs in this process or in a separate
-/// process (crane_emulated_rig). A separate process continues when the bridge ends or hangs, like a real rig.
+/// The rig at the connectors of an emulated card, and the time of this rig. The rig runs in this process or
+/// in a separate process (crane_emulated_rig). A separate process continues when the bridge ends or hangs,
+/// like a real rig.
 #include <memory>
 #include <string>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Emulation of a Servo-to-Go card, register by register. A driver accesses it through PortIo like a real
-/// card. A Connector represents the wiring of the card.
+/// Emulation of the registers of a Servo-to-Go card. A driver accesses the emulated card through PortIo, like
+/// a real card. A Connector represents the wiring of the card.
 ///
 /// Modelled: counters with output latch, byte pointer, preset, input enable and quadrature mode (8- and
 /// 16-bit accesses); converters; 8255 ports with directions; board test; 8254 timer 0 behind timer 1, which
@@ -34,7 +34,7 @@ class Connector {
   [[nodiscard]] virtual bool latch_is_stuck() noexcept { return false; }
 };
 
-/// State of the card. Plain data, so that it can be in shared memory and survive the process of the driver.
+/// State of the card. Plain data: in shared memory, the state survives the process of the driver.
 struct CardState {
   struct Counter {
     std::uint32_t origin_counts = 0;  ///< inputs enabled: value of the counter = pulses - origin_counts;

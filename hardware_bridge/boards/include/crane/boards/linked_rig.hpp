@@ -1,6 +1,6 @@
 #pragma once
-/// The shared lines as seen by the card, in the process of the bridge. plant/emulated_rig accesses the same
-/// lines for the rig.
+/// The side of the card of the shared lines, in the process of the bridge. plant/emulated_rig contains the
+/// side of the rig.
 #include <memory>
 #include <string>
 
@@ -9,7 +9,6 @@
 
 namespace crane::bridge {
 
-/// The side of the card.
 class LinkedRig final : public EmulatedRig {
  public:
   /// Waits up to 5 s for the rig. @throws BoardError when the rig is missing or another bridge uses the card

@@ -1,5 +1,5 @@
 #pragma once
-/// The boards that a rig file can name. configuration/boards.def lists them; each has one maker.
+/// The boards that a rig file can name (configuration/boards.def), each with the function that opens it.
 #include <memory>
 #include <string_view>
 #include <vector>

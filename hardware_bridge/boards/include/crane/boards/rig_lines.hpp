@@ -1,6 +1,6 @@
 #pragma once
-/// Assignment of digital lines to signals, and initial counts of the encoders. All cards with counters and
-/// digital lines use these functions.
+/// Assignment of digital lines to signals, and initial counts of the encoders, for all cards with counters
+/// and digital lines.
 #include "crane/bridge/board.hpp"
 #include "crane/configuration/rig.hpp"
 
@@ -9,10 +9,10 @@ namespace crane::bridge {
 class RigLines {
  public:
   explicit RigLines(const configuration::Rig& rig);
-  /// Sets all inputs except the counts. Inputs are contacts to ground that are closed in normal operation; a
-  /// low line is a closed contact. @param levels  bit n: level of input line n, 0..15
+  /// Sets all inputs except the counts. Inputs are normally closed contacts to ground: a low line is a closed
+  /// contact. @param levels  bit n: level of input line n, 0..15
   void read(std::uint32_t levels, Inputs& inputs) const noexcept;
-  /// @return bit n is set when output line n, 16..31, is on; all other bits are 0
+  /// @return bit n: output line n, 16..31, is on; all other bits are 0
   [[nodiscard]] std::uint32_t outputs(const Outputs& outputs) const noexcept;
   [[nodiscard]] bool present(std::size_t drive) const { return present_[drive]; }
 
@@ -21,8 +21,8 @@ class RigLines {
   std::array<bool, kDrives> present_{};
 };
 
-/// Initial counts of the incremental encoders: those of [start] of the rig file; for an axis with homing
-/// those of unhomed_position().
+/// Initial counts of the incremental encoders: at [start] of the rig file; for an axis with homing at
+/// unhomed_position().
 [[nodiscard]] std::array<std::int32_t, kCounters> start_counts(const configuration::Rig& rig);
 
 }  // namespace crane::bridge

@@ -64,8 +64,8 @@ struct SharedLines {
 };
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
-/// A named shared memory of one user (mode 0600) with one owner per role. The kernel releases the role when
-/// its process ends for any reason.
+/// A named shared memory of one user (mode 0600) with one owner per role. The kernel releases a role when the
+/// process of its owner ends.
 class SharedFile {
  public:
   enum class Role : std::uint8_t { rig, bridge };

@@ -1,7 +1,7 @@
 #pragma once
 /// Determines signs, scales and the position of a rig with the help of an observer. Each drive makes a small
 /// motion; the observer answers in which direction and how far the axis has moved. The result is a rig file
-/// that extends the given rig file.
+/// that extends the original one.
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -11,14 +11,14 @@
 
 namespace crane::bring_up {
 
-/// Largest swing of a load that counts as hanging at rest: about eight counts of the encoders of the Virginia
-/// Tech rig. Incremental swing encoders have their zero at the start of the session. A swing at this time
-/// therefore becomes an offset.
+/// Largest swing that counts as rest: about eight counts of the encoders of the Virginia Tech rig.
+/// Incremental swing encoders have their zero at the start of the session; a swing at this time becomes an
+/// offset.
 inline constexpr double kSettled_rad = 2e-3;
 
 struct CalibrationOptions {
   double largest_v = 4;  ///< largest voltage of a push; pushes begin at 1 V; in (0, kLargestJog_v]
-  std::array<double, kDrives> distance{0.1, 0.3, 0.1};  ///< m, rad, m
+  std::array<double, kDrives> distance{0.1, 0.3, 0.1};  ///< motion of each drive: m, rad, m
   /// Asks a question and waits for the answer. @throws Ended at the end of input
   std::function<std::string(const std::string& question)> ask;
   std::function<void(const std::string&)> say = [](const std::string&) {};

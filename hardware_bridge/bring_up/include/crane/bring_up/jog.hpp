@@ -15,7 +15,7 @@ struct JogPlan {
   double drive_v = 0;                   ///< V; positive: outward, according to the sign in the rig file
   double distance = 0.05;               ///< the push ends when any drive has moved this far, m or rad
   double duration_s = 1;                ///< longest duration of the push
-  double unseen_duration_s = 0.12;      ///< longest duration of a push while no counter of a drive changes
+  double unseen_duration_s = 0.12;      ///< longest duration of a push without a measured motion
   std::array<bool, kDrives> release{};  ///< brakes to open; normally that of the axis
   /// Called at every tick of the push; true ends the push.
   std::function<bool(const Sample&)> enough = [](const Sample&) { return false; };

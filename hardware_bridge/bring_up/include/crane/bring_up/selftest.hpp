@@ -1,5 +1,6 @@
 #pragma once
-/// Pushes each drive a little and records the reaction of the rig as evidence for judge() of wiring.hpp.
+/// Pushes each drive over a short distance and records the reaction of the rig as evidence for judge() of
+/// wiring.hpp.
 /// Required: the crane is at [start] of the rig file, the load hangs nearly at rest, and each axis has 10 cm
 /// (0.2 rad) of free travel in both directions.
 #include <functional>

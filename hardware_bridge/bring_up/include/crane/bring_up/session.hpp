@@ -1,6 +1,6 @@
 #pragma once
-/// Direct access to a board for the bring-up of a rig: tick by tick, without the stack. At the end of a
-/// session, also by an exception or Ctrl-C, the board is at 0 V with closed brakes.
+/// Direct access to a board for the bring-up of a rig: tick by tick, without the stack. Every end of a
+/// session, also by an exception or Ctrl-C, leaves the board at 0 V with closed brakes.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -23,7 +23,7 @@ using bridge::kDrives;
 
 /// Inputs of the board at the end of a tick.
 struct Sample {
-  double time_s = 0;
+  double time_s = 0;                             ///< since the start of the session
   std::array<std::int64_t, kCounters> counts{};  ///< unwrapped
   std::array<double, kCounters> coordinate{};    ///< m or rad, with signs and scales of the rig file
   bridge::Inputs inputs{};
@@ -60,7 +60,7 @@ class Session {
 
   /// Calls rest() for at least `duration_s`.
   Record watch(double duration_s);
-  /// Toggles the watchdog output until the relay closes; brakes closed.
+  /// Toggles the watchdog output with closed brakes for 0.2 s, in which the relay closes.
   void wake();
 
   [[nodiscard]] const Sample& sample() const { return sample_; }

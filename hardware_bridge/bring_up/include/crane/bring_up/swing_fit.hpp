@@ -23,8 +23,8 @@ struct SwingFit {
 /// @param counter  3 radial, 4 tangential
 [[nodiscard]] SwingFit fit_swing(std::span<const Sample> record, std::size_t counter, double frequency_radps);
 
-/// Swing after a short motion of the suspension point (compared with the cable). In each tick the load lags
-/// behind by the displacement, then swings freely.
+/// Swing after a motion of the suspension point that is short compared with the cable. In each tick the load
+/// lags behind by the displacement, then swings freely.
 /// @param lever_m_per_unit  displacement of the suspension point in the positive direction of the swing, per
 ///   unit of the axis
 [[nodiscard]] SwingFit expected_swing(std::span<const Sample> motion, std::size_t axis,

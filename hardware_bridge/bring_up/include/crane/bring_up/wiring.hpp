@@ -14,9 +14,9 @@
 
 namespace crane::bring_up {
 
-/// Smaller motion counts as standstill (play, last counts), m or rad.
+/// Largest motion that counts as standstill (backlash, single counts), m or rad.
 inline constexpr double kStandstill = 1e-3;
-/// Smaller swing counts as no swing: about 15 counts of the encoders of the Virginia Tech rig, rad.
+/// Largest swing that counts as no swing: about 15 counts of the encoders of the Virginia Tech rig.
 inline constexpr double kNoSwing_rad = 4e-3;
 inline constexpr std::size_t kSwings = 2;
 
@@ -37,10 +37,8 @@ struct AxisEvidence {
   std::array<double, kDrives> moved{};       ///< motion by the counter of each axis, m or rad
   std::array<double, kSwings> shifted_rad{};  ///< permanent change of each swing counter (angle at rest)
   std::array<double, kSwings> swung_rad{};    ///< added swing
-  /// Swing that the motion of the suspension point should add, with the sign of the encoder, and the measured
-  /// share of it (share_of).
-  double expected_rad = 0;
-  double share = 0;
+  double expected_rad = 0;  ///< swing that the motion of the suspension point should add, sign of the encoder
+  double share = 0;         ///< measured share of expected_rad (share_of())
   /// After the push, with closed brakes: swing that the counter of a drive shows, in the scale of the swing
   /// encoder.
   std::array<double, kDrives> counter_swings_rad{};
@@ -57,6 +55,7 @@ struct Evidence {
   std::array<AxisEvidence, kDrives> axis;
 };
 
+/// Wiring fault that judge() can report.
 enum class Fault {
   estop,                  ///< the emergency stop is pressed, or its wire is broken
   relay_stuck,            ///< the relay stays closed without toggles of the watchdog output
