@@ -27,7 +27,7 @@ void enter_realtime(runtime::RealtimeScheduling& scheduling, int priority) {
               << "; its relay may react late under load\n";
 }
 
-/// The steps are much shorter than a tick, so that no toggle of an output is missed.
+/// The steps are at most a quarter of a tick, so that no toggle of an output is missed.
 void run_in_realtime(emulated_rig::RigServer& server, double period_s) {
   const auto step_ns = std::min<std::int64_t>(1'000'000, std::llround(period_s / 4 * 1e9));
   const auto begin_ns = runtime::monotonic_ns();

@@ -53,7 +53,7 @@ bool RigServer::serve_realtime(std::int64_t begin_ns, std::int64_t wake_ns) {
 }
 
 void RigServer::run_to(std::int64_t time_ns, std::int64_t at_ns) {
-  // if the process is late, events are still timed to a millisecond
+  // a late process still applies each event within 1 ms of its time
   constexpr std::int64_t kStep_ns = 1'000'000;
   const auto offset_ns = at_ns - time_ns;
   const bridge::OutputChange* change = next_output_change();

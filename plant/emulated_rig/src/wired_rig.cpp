@@ -67,7 +67,7 @@ void WiredRig::set_outputs(std::uint16_t levels) noexcept {
 /// Writes the changes of several lines together: the command terms of the model act once per tick.
 void WiredRig::advance_to(std::int64_t time_ns) {
   if ((faults_ & bridge::kWeldedRelay) != 0) {
-    // The toggling keeps the simulated relay closed, as welded contacts would.
+    // Continuous toggles keep the simulated relay closed, like welded contacts.
     outputs_.watchdog_level = !outputs_.watchdog_level;
     changed_ = true;
   }

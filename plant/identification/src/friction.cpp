@@ -11,7 +11,7 @@ namespace crane::identification {
 namespace {
 
 constexpr std::size_t kFewestRows = 50;  // per direction
-// Spread / mean of the speed. Below this value b and c cannot be distinguished.
+// Smallest spread / mean of the speed at which b and c can be distinguished.
 constexpr double kSmallestSpeedSpread = 0.1;
 constexpr double kLargestGainError = 0.1;  // largest accepted relative standard error of K_m
 constexpr double kContradiction = 3;       // standard errors

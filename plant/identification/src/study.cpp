@@ -13,7 +13,7 @@ struct Printed {
 struct Table {
   const char* name;
   TestProblem problem;
-  double zero_band;  ///< d_s of a table of cut-off frequencies; 0: the table varies d_s, without filter
+  double zero_band;  ///< d_s of a table that varies omega_c; 0: the table varies d_s, without filter
   std::vector<Printed> rows;
 };
 

@@ -99,7 +99,7 @@ class Simulation {
     }
   }
 
-  static constexpr double kStart_mps = 1e-12;  // speed after a break-away; only its sign has an effect
+  static constexpr double kStart_mps = 1e-12;  // speed after a break-away; only the sign has an effect
 
   const TestProblem& p_;
   State state_;

@@ -42,7 +42,7 @@ motion::Motion<double> motion_of(const State& s, const Angles& angles, double ca
           .cable_mps2 = cable_mps2};
 }
 
-/// Solves M q = r for the free coordinates. It eliminates the two swing equations, which do not couple (M24 =
+/// Solves M q = r for the free coordinates: eliminates the two swing equations, which are not coupled (M24 =
 /// 0), and solves the remaining 2x2 system.
 Column solve(const Mass& m, const Column& r, const Locks& locks) {
   const bool radial = !locks.radial && m.m22 > 0;

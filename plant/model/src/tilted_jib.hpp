@@ -1,8 +1,9 @@
 #pragma once
 /// Crane whose jib is inclined by the angle a out of the horizontal; the slew axis remains vertical
 /// (docs/equations.md#tilted-jib). In the slewing frame, whose third axis is vertical, the cable has the
-/// angles phi - a and theta, and the trolley has the horizontal distance x cos(a). The equations of the
-/// horizontal jib hold with both, except that the trolley also moves vertically with x sin(a).
+/// angles phi - a and theta, and the trolley has the horizontal distance x cos(a). With these
+/// values the equations of the horizontal jib hold, except that the trolley also moves vertically with x
+/// sin(a).
 #include "crane/plant/motion_terms.hpp"
 
 namespace crane::plant::tilted {

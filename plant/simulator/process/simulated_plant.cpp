@@ -7,8 +7,8 @@ namespace crane::simulator {
 
 namespace {
 
-/// Sets the encoder of an axis that must be homed: at the start it shows unhomed_position(), not the true
-/// position.
+/// Sets the zero of the encoder of an axis that must be homed: at the start, the encoder shows
+/// unhomed_position(), not the true position.
 void forget_zero(SimulatedRig& rig, const control::DriveLimits& drive, plant::Axis axis) {
   rig.encoders[axis].zero = plant::position(rig.start, axis) - drive.unhomed_position();
 }

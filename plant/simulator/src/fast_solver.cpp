@@ -1,7 +1,7 @@
 /// The fast method: one-step formulas with error control (one_step.hpp). Each step uses the cheaper formula.
 ///
-/// An event ends the step in which a watched distance changes its sign. The time of the event is found by
-/// repeating the step with other lengths.
+/// An event is a change of the sign of a watched distance. The solver finds its time by repeating the step
+/// with other lengths, and ends the step there.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,7 +72,7 @@ class FastSolver final : public Solver {
     return std::clamp(kSafety * std::pow(trial.error, -1 / trial.order), kLeast, kMost);
   }
 
-  /// End of a step that begins at step_.y(): the end of the whole step, or the first event in the step.
+  /// End of a step that begins at step_.y(): the end of the step of length h, or the first event in the step.
   [[nodiscard]] Reached first_event(double h, const Trial& trial) {
     Reached first{h, trial.end, std::nullopt};
     if (watch_ == nullptr) return first;

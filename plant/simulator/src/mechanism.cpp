@@ -12,9 +12,10 @@ using plant::kHoist;
 using plant::kSlew;
 using plant::kTrolley;
 
-/// Standstill speed with a closed brake; the brake stops a slower axis in less than a microsecond.
+/// Largest speed that counts as standstill with a closed brake, m/s or rad/s: the brake stops the axis in
+/// less than a microsecond.
 constexpr double kStandstill = 1e-6;
-/// Maximum number of events of one run(). More events indicate an invalid state.
+/// Largest number of events of one run(). More events indicate an invalid state.
 constexpr int kMostEvents = 1000;
 
 plant::State with_position(const plant::State& state, Axis axis, double value) {

@@ -56,7 +56,7 @@ int solve(SUNLinearSolver solver, SUNMatrix /*matrix*/, N_Vector x, N_Vector b, 
   const Eigen::Map<const Half> r_p{N_VGetArrayPointer(b)};
   const Eigen::Map<const Half> r_v{N_VGetArrayPointer(b) + kCoordinates};
   const Half d_v = f.lu.solve(r_v + g * (f.matrix.by_position * r_p));
-  // computed before the result is stored, because x and b can be the same vector
+  // stored last, because x and b may be the same vector
   const Half d_p = r_p + g * d_v;
   Eigen::Map<Half>{N_VGetArrayPointer(x)} = d_p;
   Eigen::Map<Half>{N_VGetArrayPointer(x) + kCoordinates} = d_v;

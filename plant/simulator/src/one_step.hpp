@@ -17,13 +17,14 @@
 
 namespace crane::simulator {
 
-/// The explicit formula is stable up to 3.3 on the negative real axis.
+/// Largest step times steepest rate for the explicit formula, which is stable up to 3.3 on the negative real
+/// axis.
 inline constexpr double kMostExplicit = 2;
 /// Difference for the slope of the friction [m/s, rad/s]; small compared with every smoothing speed of the
 /// terms.
 inline constexpr double kDifference = 1.5e-8;
-/// Permitted local error / tolerance of CVODE: with this ratio, whole motions are as accurate as with CVODE
-/// (fast_integrator_test.cpp), which accumulates the errors of many more steps.
+/// Permitted local error / tolerance of CVODE. With this ratio, whole motions are as accurate as with CVODE,
+/// which accumulates the errors of many more steps (fast_integrator_test.cpp).
 inline constexpr double kPermitted = 10;
 /// A step shorter than this [s] indicates that the equations have no solution.
 inline constexpr double kShortest_s = 1e-11;
@@ -236,7 +237,7 @@ class OneStep {
   Vector y_{};
   Slope slope_{};
   plant::PerAxis steepness_{};  ///< d friction / d speed [V s/m, V s/rad]
-  double steepest_1ps_ = 0;
+  double steepest_1ps_ = 0;     ///< see find_steepness()
   /// d q'' / d friction [per V] of each drive, computed at one step of the span
   std::array<Half, kAxes> response_{};
   bool response_known_ = false;

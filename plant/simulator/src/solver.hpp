@@ -41,8 +41,8 @@ inline void store(const Motion& motion, std::size_t inner, double* y) {
   }
 }
 
-/// Distances to the events of a Watch, per axis in the order of EventKind. An event is a change of sign; what
-/// is not watched keeps the distance 1.
+/// Distances to the events of a Watch, per axis in the order of EventKind. An event is a change of sign; an
+/// event that is not watched has the distance 1.
 inline constexpr std::size_t kDistances = 3 * plant::kAxes;
 inline void measure_distances(const Watch& watch, const double* y, std::size_t half, double* distance) {
   for (std::size_t axis = 0; axis < plant::kAxes; ++axis) {

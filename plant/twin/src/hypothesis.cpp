@@ -126,8 +126,8 @@ double dry_friction_v(const Rig& rig, const std::string& axis) {
   return sum;
 }
 
-/// The effect of Coulomb friction is not proportional to its size, because friction can hold a drive.
-/// Therefore there are several reference sizes of either sign.
+/// The effect of Coulomb friction is not proportional to its size, because friction can hold a drive: several
+/// reference sizes of either sign.
 void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis) {
   const CauseKind& kind = cause_kind("coulomb_friction");
   const double least_v = kind.sizes.front(), most_lost_v = 0.6 * dry_friction_v(rig, axis);
@@ -144,7 +144,7 @@ void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::
   }
 }
 
-/// The effect of the gain is also not proportional, because friction holds a weaker drive longer.
+/// The effect of the gain is not proportional to its size either: friction holds a weaker drive longer.
 void add_gain(std::vector<Hypothesis>& list, const std::string& axis) {
   const CauseKind& kind = cause_kind("motor_gain");
   for (const double sign : {1.0, -1.0})

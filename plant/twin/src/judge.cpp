@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t kRemembered_blocks = 120;
 constexpr double kClip = 0.4;         // largest increment / threshold: an alarm needs at least three blocks
-constexpr double kVarianceRatio = 9;  // variance ratio that the energy test detects: three times the band
-constexpr double kEnergyFreedom = 4;  // largest number of degrees of freedom of a block's coloured residual
+constexpr double kVarianceRatio = 9;  // variance / learnt variance that the energy test detects
+constexpr double kEnergyFreedom = 4;  // degrees of freedom of the coloured residual of a block
 constexpr double kNamedShare = 0.8;   // explained share of the energy for naming a cause early
 constexpr std::size_t kFewestToName = 5;
 constexpr int kLongestDoubt_blocks = 16;
@@ -54,7 +54,7 @@ void Judge::add(const Block& block) {
   if (learnt_s_ < design_.learn_s) return;
   learn();
   phase_ = Phase::watching;
-  // Only the scatter was learnt, not the mean: a deviation that exists from the start must raise an alarm.
+  // The mean was not learnt: a deviation that exists from the start must raise an alarm.
   for (const Block& earlier : learnt_from_) judge(earlier);
   learnt_from_.clear();
 }

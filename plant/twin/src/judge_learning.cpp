@@ -6,8 +6,8 @@
 namespace crane::twin {
 namespace {
 
-constexpr double kPasses = 0.5;  // amount without an alarm, in references
-// Explained share of the energy above which a cause is excluded from the scatter.
+constexpr double kPasses = 0.5;  // largest amount without an alarm, in references
+// Explained share of the energy above which the effect of a cause is excluded from the scatter.
 constexpr double kWrongFromTheStart = 0.5;
 
 }  // namespace
@@ -51,8 +51,8 @@ void Judge::learn_variance(const PerColumn& floor, std::size_t hypothesis, doubl
   }
 }
 
-/// If one cause explains most of the learnt residual, this cause is a deviation from the start and is
-/// excluded from the scatter.
+/// Learns the scatter. A cause that explains most of the learnt residual is a deviation from the start; its
+/// effect is excluded.
 void Judge::learn() {
   const PerColumn floor = variance_;
   learn_variance(floor, 0, 0);

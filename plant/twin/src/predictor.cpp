@@ -31,7 +31,7 @@ void Predictor::restart(const Known& now, const Mask& simulated) {
   integrator_->prescribe({given(now), {now.cable_m, now.cable_mps, 0}});
   for (const auto column : stepper::kAllOutputs)
     if (simulated[column]) position_of(integrator_->state, column) = now.reported[column];
-  // State for the measured sensor values, to first order in the sensor errors.
+  // Inverts the sensor terms to first order in the sensor errors.
   const PerColumn seen = columns_of(model_->measure(integrator_->state));
   for (const auto column : stepper::kAllOutputs) {
     if (!simulated[column]) continue;

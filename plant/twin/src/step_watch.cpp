@@ -7,9 +7,9 @@ namespace crane::twin {
 namespace {
 
 constexpr double kMargin = 3;       // smallest step / largest change while learning
-constexpr double kExplained = 0.9;  // smallest share of the residual's energy that the shape explains
-constexpr double kBetter = 0.5;  // largest unexplained energy / unexplained energy with the shape of a force
-constexpr std::size_t kApart_ticks = 5;  // distance of two residuals: detects a step that takes several ticks
+constexpr double kExplained = 0.9;  // smallest share of the energy of the residual that the shape explains
+constexpr double kBetter = 0.5;     // largest unexplained energy / that of the shape of a constant force
+constexpr std::size_t kApart_ticks = 5;  // second distance of two residuals: for steps over several ticks
 
 }  // namespace
 

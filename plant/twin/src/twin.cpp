@@ -12,7 +12,7 @@ using stepper::kCoordinateOf;
 
 constexpr double kLargestSwing_rad = 1.4, kShortestCable_m = 0.05;  // range of the equations of motion
 constexpr PerColumn kMoving{0.005, 0.005, 0.02, 0.02};              // speed of a moving axis, m/s, rad/s
-constexpr double kUnexpected = 0.25;  // largest model error of an acceleration / acceleration by full voltage
+constexpr double kUnexpected = 0.25;  // largest error of the modelled acceleration / that by full voltage
 constexpr double kFullVoltage_v = 10;
 constexpr double kSmallestSlip_counts = 3;
 constexpr double kQuietDrive = 4;  // largest residual of a drive that is not disturbed / its band

@@ -10,7 +10,7 @@ namespace crane::plant {
 namespace {
 
 /// Natural frequency of the contact between the flanks, with the inertia of the load side: 25 Hz for the
-/// nut of a trolley, 15 Hz for the gear of a jib. The contact is a damped spring that does not pull; the
+/// nut of a trolley, 15 Hz for the gear of a jib. The contact is a damped spring without tension; the
 /// coefficient of restitution is almost one half. The damping increases with the depth of contact up to
 /// kSoftShare, so that the force is continuous.
 constexpr double kNut_radps = 2 * std::numbers::pi * 25, kGear_radps = 2 * std::numbers::pi * 15;
@@ -32,8 +32,8 @@ class Backlash final : public Term {
         far_(slew_, gap_ > 0 ? s.parameters.at("driven_share") : 0) {}
 
   void change_parameters(Parameters& crane) const noexcept override { far_.split(crane); }
-  /// The friction of the rig file was measured on the whole axis. The part of the guide is subtracted from
-  /// the friction of the motor.
+  /// The friction of the rig file is that of the whole axis. Subtracts the part of the guide from the
+  /// friction of the motor.
   void relieve_friction(const Parameters& crane, const State& state,
                         PerAxis& friction_v) const noexcept override {
     if (!far_.carries() || known_share_ == 0) return;
@@ -71,7 +71,7 @@ class Backlash final : public Term {
     const double side = std::copysign(1.0, change), flank = 0.5 * gap_;
     const bool met = std::max(-side * before[0].position, -side * inner[0].position) > flank;
     inner[0].position = side * (met ? -flank : std::max(side * inner[0].position, flank));
-    // limits the effect of measurement noise on a light load side
+    // limits the effect of measurement noise for a light load side
     const double fastest = gap_ * contact_radps_;
     inner[0].rate = std::clamp(inner[0].rate - far_.speed_loss(crane, state, change), -fastest, fastest);
   }

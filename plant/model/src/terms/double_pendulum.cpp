@@ -28,9 +28,9 @@ struct Tensions {
   double upper = 0, lower = 0;
 };
 
-/// The inner coordinates are the angles of the lower cable relative to the upper cable. Their initial value 0
-/// puts the load in line with the upper cable, for any initial swing. Both cables are taut. The tensions
-/// neglect the acceleration of the suspension point and of the hoist along the cable.
+/// The inner coordinates are the angles of the lower cable relative to the upper cable: at their initial
+/// value 0 the load is in line with the upper cable. Both cables are taut. The tensions neglect the
+/// acceleration of the suspension point and of the hoist along the cable.
 class DoublePendulum final : public Term {
  public:
   explicit DoublePendulum(const TermSetting& s)

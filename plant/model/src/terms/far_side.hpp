@@ -1,6 +1,6 @@
 #pragma once
-/// The part of an axis on the load side of a gap or a spring ("far side"), and the forces of this part on the
-/// motor side.
+/// The part of an axis on the load side of a backlash or a spring ("far side"), and its forces on the motor
+/// side.
 #include "crane/plant/equations.hpp"
 #include "crane/plant/motion_terms.hpp"
 #include "crane/plant/parameters.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Constant of the structure terms.
+/// Natural frequency from which the structure terms count as rigid.
 #include <numbers>
 
 namespace crane::plant {

@@ -1,5 +1,5 @@
 #pragma once
-/// The swing angles that a sensor term changes: "radial", "tangential", or both when the axis is empty.
+/// The swing angles that a sensor term changes: "radial" or "tangential"; both when the axis is empty.
 #include <string_view>
 
 #include "crane/plant/term.hpp"

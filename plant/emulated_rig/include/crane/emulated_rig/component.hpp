@@ -11,8 +11,7 @@ namespace crane::emulated_rig {
 /// @throws std::invalid_argument with all problems of the rig
 [[nodiscard]] std::unique_ptr<bridge::Board> open_board(const configuration::Rig& rig);
 
-/// Same as bridge::hardware_bridge_spec(), except that on the memory bus open_board() makes an emulated
-/// board, with its simulated crane in this process.
+/// Same as bridge::hardware_bridge_spec(), except that on the memory bus open_board() opens the board.
 [[nodiscard]] runtime::ComponentSpec hardware_bridge_spec();
 
 }  // namespace crane::emulated_rig

@@ -1,6 +1,6 @@
 #pragma once
-/// The shared lines as seen by the rig, in the process crane_emulated_rig. crane/boards/linked_rig.hpp
-/// accesses the same lines for the card.
+/// The side of the rig of the shared lines, in the process crane_emulated_rig. crane/boards/linked_rig.hpp is
+/// the side of the card.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -23,8 +23,9 @@ class RigServer {
   /// Lockstep: waits up to 50 ms for an advance request and serves it.
   void serve_advance();
   /// Real time: waits for a request of the card, at most until `wake_ns` of CLOCK_MONOTONIC, then advances
-  /// the crane to the requested time, or to the present one. @param begin_ns  CLOCK_MONOTONIC at the rig's
-  /// time 0. @return true when the card requested it
+  /// the crane to the requested time, or without a request to the present time.
+  /// @param begin_ns  CLOCK_MONOTONIC at time 0 of the rig
+  /// @return true when the card has requested an advance
   bool serve_realtime(std::int64_t begin_ns, std::int64_t wake_ns);
   /// Advances the crane up to `time_ns`, which is `at_ns` of CLOCK_MONOTONIC. Applies each change of the
   /// output lines at its time, then the present levels.

@@ -17,13 +17,15 @@ struct BreakAway {
   double drive_v = 0;  ///< voltage in the middle of the window, V, signed
 };
 
-/// All break-aways in the direction of the voltage, in order of time. drive_v has a bias: b start_speed from
-/// the speed threshold (b: viscous friction), plus half the window times the slope of the voltage.
-/// @throws IdentificationError as estimate_friction does for the series, @throws std::invalid_argument
+/// All break-aways in the direction of the voltage, in order of time. The bias of drive_v is b start_speed
+/// (b: viscous friction) plus half the window times the slope of the voltage.
+/// @throws IdentificationError when the series are too short, not finite or of different lengths
+/// @throws std::invalid_argument when an option is not > 0
 [[nodiscard]] std::vector<BreakAway> break_aways(const AxisRun& run, const BreakAwayOptions& options);
 
+/// Stiction in one direction.
 struct Stiction {
-  double mean_v = 0;    ///< mean of |drive_v|
+  double mean_v = 0;    ///< mean of |drive_v|, V
   double spread_v = 0;  ///< standard deviation of single break-aways, V
   std::size_t count = 0;
 };

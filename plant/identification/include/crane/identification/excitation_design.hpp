@@ -42,8 +42,8 @@ struct ExcitationLimits {
                                              const ExcitationLimits& limits, double duration_s);
 
 /// A slow sine about the middle of the travel for the break-away experiment. While the axis rests, the
-/// position loop raises the voltage by `ramp_vps`, until it exceeds the friction; `repetitions` times in each
-/// direction.
+/// position loop raises the voltage by `ramp_vps` until the voltage exceeds the friction; `repetitions` times
+/// in each direction.
 /// @param stiffness_vpu  gain of the position loop, V/m or V/rad
 /// @param ramp_vps       slope of the voltage, V/s
 /// @param friction_v     sum of the friction of both directions, V

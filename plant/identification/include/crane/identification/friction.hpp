@@ -12,8 +12,7 @@
 ///
 /// K_m is either given (rig file) or estimated together with the friction from u = a/K_m + .... A given K_m
 /// with an error affects b/K_m and c/K_m only through a (section 3.1). An estimate of K_m needs enough
-/// acceleration that is independent of v: a motion with a = 0 gives no information about K_m. Without this
-/// information the estimator throws.
+/// acceleration that is independent of v; otherwise the estimator throws.
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -22,13 +21,13 @@
 
 namespace crane::identification {
 
-/// The data do not determine the result. what() names reason and remedy.
+/// The data do not determine the result. what() states reason and remedy.
 class IdentificationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Measurements of one axis with constant sampling period; element k is time t_k.
+/// Measurements of one axis with constant sampling period; element k is the value at t_k.
 struct AxisRun {
   double period_s = 0.01;
   std::vector<double> position;  ///< m or rad

@@ -1,5 +1,5 @@
 #pragma once
-/// Recomputes Tables 3.1 to 3.5: the regression of section 3.1 for the test problem, with several
+/// Recomputes Tables 3.1 to 3.5: the regression of section 3.1 on the test problem, with several
 /// zero-velocity bands and cut-off frequencies. Source: H. M. Omar, Control of Gantry and Tower Cranes,
 /// Virginia Tech, 2003. The source does not state all settings of its simulation. These settings reproduce
 /// its tables best: 100 Hz, 60 s, continuous PD, x and u filtered, v from the model.
@@ -21,8 +21,8 @@ struct StudyRow {
   Coefficients printed{};
   Coefficients recomputed{};
   Coefficients midpoint{};  ///< midpoint regression on the same axis with a sampled and held voltage
-  /// True: the printed number depends on the chattering of the source's integrator about v = 0 and cannot be
-  /// reproduced.
+  /// True: the printed number cannot be reproduced, because the integrator of the source chatters about v =
+  /// 0.
   bool printed_chatters = false;
 };
 

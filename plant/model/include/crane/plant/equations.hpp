@@ -28,8 +28,7 @@ struct Accelerations {
   double cable_mps2 = 0;
 };
 
-/// Locked coordinates: coordinates that a closed brake holds, that the rig does not have, or whose motion is
-/// prescribed.
+/// Locked coordinates: held by a closed brake, absent from the rig, or with a prescribed motion.
 struct Locks {
   std::array<bool, kAxes> axis{};
   /// Acceleration of each locked axis: 0 for an axis that a brake holds (its rate must be 0), otherwise
@@ -39,18 +38,18 @@ struct Locks {
   bool tangential = false;  ///< true: theta is held
 };
 
-/// Sines and cosines of the swing angles. Without a load, the swing has no influence on the drives; the
-/// angles are then 0.
+/// Sines and cosines of the swing angles; without a load those of 0, because the swing then does not affect
+/// the drives.
 [[nodiscard]] motion::Angles<double> swing_angles(const Parameters& parameters, const State& state) noexcept;
 
-/// @return q'' of the free coordinates, and the acceleration in `locks` for the locked ones. Without load
-///   mass the swing is locked too, because the pendulum equations vanish
+/// @return q'' of the free coordinates; for a locked axis the acceleration in `locks`. Without load mass, the
+///   swing is locked too, because its equations vanish
 /// @param cable_mps2  L'', prescribed; a locked hoist uses its acceleration in `locks` instead
 /// @pre parameters.problems().empty(), cable length > 0, |theta| < pi/2
 [[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
                                           const Forces& forces, double cable_mps2,
                                           const Locks& locks = {}) noexcept;
-/// @param angles  swing_angles(parameters, state), where the caller uses them more than once
+/// @param angles  swing_angles(parameters, state), for callers that need them more than once
 [[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
                                           const motion::Angles<double>& angles, const Forces& forces,
                                           double cable_mps2, const Locks& locks) noexcept;
@@ -75,8 +74,8 @@ struct DriveResponse {
 [[nodiscard]] DriveResponse drive_response(const Parameters& parameters, const State& state,
                                            const Locks& locks = {}) noexcept;
 
-/// Tension of the cable [N], positive for a taut cable: -Q_L of Lagrange's equation for L. It is linear in
-/// the accelerations of trolley, jib and cable.
+/// Tension of the cable [N], positive for a taut cable: -Q_L of Lagrange's equation for L. The tension is
+/// linear in the accelerations of trolley, jib and cable.
 struct CableTension {
   double free_n = 0;  ///< without accelerations
   double by_trolley_kg = 0, by_slew_kgm = 0, by_cable_kg = 0;

@@ -15,7 +15,7 @@ namespace crane::plant {
 /// has the generalised forces J^T F.
 [[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& parameters,
                                                         const State& state) noexcept;
-/// @param level  sines and cosines of the cable's angles in the slewing frame, where the caller has them
+/// @param level  sines and cosines of the angles of the cable in the slewing frame
 [[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& parameters, const State& state,
                                                         const motion::Angles<double>& level) noexcept;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Model of the crane with its drives and terms; input: volts, output: accelerations.
+/// Model of the crane with its drives and terms. Inputs: voltages and brakes; outputs: accelerations.
 /// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003.
 ///   F_x = M K_mx (V_x - f_x),  T_gamma = J_o K_mgamma (V_gamma - f_gamma)      (2.10), (2.26), (2.27), (3.4)
 ///   L'' = (K_h (V_h - f_h) - L') / tau_h                                       speed-controlled hoist
@@ -51,11 +51,11 @@ class Model {
   /// @param drive_v  output of the amplifiers [V]: friction in a gear grows with the force it carries
   [[nodiscard]] PerAxis friction_v(const State& state, const PerAxis& drive_v) const noexcept;
   [[nodiscard]] double friction_v(const State& state, double drive_v, Axis axis) const noexcept;
-  /// The same for the axes that are not locked; 0 V for a locked axis.
+  /// As friction_v(), but 0 V for a locked axis.
   [[nodiscard]] PerAxis free_drives_friction_v(const State& state, const Actuation& actuation) const noexcept;
 
-  /// Decrease of the accelerations of trolley and slew per volt of friction: [accelerated axis][axis with
-  /// friction].
+  /// Decrease of the accelerations of trolley and slew per volt of friction [m/s2 per V, rad/s2 per V]:
+  /// [accelerated axis][axis with friction].
   [[nodiscard]] std::array<PerAxis, kAxes> friction_response(const State& state, const Locks& locks,
                                                              const InnerState& inner) const noexcept;
 

@@ -32,7 +32,7 @@ struct Motion {
 /// Whether h contains the terms of L' and L''.
 enum class Cable { fixed, moving };
 
-/// Elements of M(q). M24 = 0.
+/// Elements of M(q) in kg, kg m and kg m2. M24 = 0.
 template <class Number>
 struct Mass {
   double m11;
@@ -40,6 +40,8 @@ struct Mass {
   double m44;
 };
 
+/// @param x  trolley position, m
+/// @param l  cable length L, m
 template <class Number>
 Mass<Number> mass(const Parameters& p, const Angles<Number>& a, const Number& x, double l) {
   const double m = p.load_mass_kg, ml = m * l, ml2 = ml * l;
@@ -57,7 +59,7 @@ Mass<Number> mass(const Parameters& p, const Angles<Number>& a, const Number& x,
           .m44 = ml2};
 }
 
-/// h1 of (2.17)
+/// h1 of (2.17), N
 template <Cable kCable, class Number>
 Number trolley_bias(const Parameters& p, const Motion<Number>& s) {
   const auto& a = s.angles;
@@ -71,7 +73,7 @@ Number trolley_bias(const Parameters& p, const Motion<Number>& s) {
          m * a.sf * a.ct * s.cable_mps2;
 }
 
-/// h2 of (2.18), multiplied by m L cos(theta)
+/// h2 of (2.18), multiplied by m L cos(theta), N m
 template <Cable kCable, class Number>
 Number radial_bias(const Parameters& p, const Motion<Number>& s) {
   const auto& a = s.angles;
@@ -84,7 +86,7 @@ Number radial_bias(const Parameters& p, const Motion<Number>& s) {
   return p.load_mass_kg * l * a.ct * acceleration_mps2;
 }
 
-/// h3 of (2.19)
+/// h3 of (2.19), N m
 template <Cable kCable, class Number>
 Number slew_bias(const Parameters& p, const Motion<Number>& s) {
   const auto& a = s.angles;
@@ -105,7 +107,7 @@ Number slew_bias(const Parameters& p, const Motion<Number>& s) {
   return coriolis + hoisting + swinging;
 }
 
-/// h4 of (2.20), multiplied by m L
+/// h4 of (2.20), multiplied by m L, N m
 template <Cable kCable, class Number>
 Number tangential_bias(const Parameters& p, const Motion<Number>& s) {
   const auto& a = s.angles;

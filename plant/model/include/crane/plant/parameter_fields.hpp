@@ -6,16 +6,16 @@
 
 namespace crane::plant {
 
-/// The equations divide by cos(swing), which is above 0.07 for 1.5 rad.
+/// Swing angles, rad. The equations divide by cos(swing), which is 0.07 at 1.5 rad.
 inline constexpr fields::Range kSwings = fields::Range::closed(-1.5, 1.5);
 /// Positions, m or rad. The jib of a tower crane is shorter than 100 m.
 inline constexpr fields::Range kPositions = fields::Range::closed(-1000, 1000);
-/// Cable lengths. The equations divide by the length.
+/// Cable lengths, m. The equations divide by the length.
 inline constexpr fields::Range kCableLengths = fields::Range::closed(1e-3, 1000);
-/// Sampling periods from 10 us to 0.1 s; the latter gives only a few samples per load period.
+/// Sampling periods, s. A period of 0.1 s gives only a few samples per period of the load.
 inline constexpr fields::Range kPeriods = fields::Range::closed(1e-5, 0.1);
 
-// Masses up to a thousand tonnes, more than any tower crane carries. Divisors are at least 1e-6.
+// The largest mass is 1000 t, more than any tower crane carries. Divisors are at least 1e-6.
 inline constexpr std::array<fields::Field<Parameters>, 9> kParameterFields{{
     {.key = "gravity_mps2",
      .member = &Parameters::gravity_mps2,

@@ -1,7 +1,7 @@
 #pragma once
-/// Physical parameters of a tower crane, gantry, single drive axis or free pendulum. The values and their
-/// sources are in docs/equations.md. Because of the leadscrew, the inertia that the trolley drive accelerates
-/// (M) differs from the mass that moves along the jib (M_j). Equation numbers: H. M. Omar, Control of Gantry
+/// Physical parameters of a tower crane, gantry, single drive axis or free pendulum. docs/equations.md states
+/// values and sources. Because of the leadscrew, the inertia that the trolley drive accelerates (M) differs
+/// from the mass that moves along the jib (M_j). Equation numbers: H. M. Omar, Control of Gantry
 /// and Tower Cranes, Virginia Tech, 2003.
 #include <array>
 #include <cstddef>
@@ -33,8 +33,8 @@ struct Parameters {
   /// Share of M_j whose centrifugal force and weight along a tilted jib act on the trolley motor; 0 when a
   /// structure term separates the motor from the trolley. Set by terms, not by rig files.
   double centrifugal_share = 1;
-  /// Sine and cosine of the jib's inclination a, positive when the tip is raised. The slew axis is vertical.
-  /// Set by terms, not by rig files.
+  /// Sine and cosine of the inclination of the jib, positive when the tip is raised. The slew axis is
+  /// vertical. Set by terms, not by rig files.
   double tilt_sine = 0, tilt_cosine = 1;
 
   /// Ratios (2.25), with M and M_j for the two trolley masses: m_t = m / M, m_r = m / J_o, M_r = M_j / J_o.

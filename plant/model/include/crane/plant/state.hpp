@@ -15,7 +15,7 @@ struct State {
   double trolley_m = 0;       ///< x, distance from the tower axis
   double radial_rad = 0;      ///< phi, |phi| < pi/2
   double slew_rad = 0;        ///< gamma
-  double tangential_rad = 0;  ///< theta, |theta| < pi/2: the equations are singular there
+  double tangential_rad = 0;  ///< theta, |theta| < pi/2: the equations are singular at pi/2
   double cable_m = 1;         ///< L, > 0
   double trolley_mps = 0;
   double radial_radps = 0;

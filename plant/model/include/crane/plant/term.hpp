@@ -63,15 +63,14 @@ class Term {
   /// axis. A term with such a force subtracts it in add_friction.
   [[nodiscard]] virtual double position_force_v(const State& /*state*/) const noexcept { return 0; }
   /// Drive terms: adds friction that grows with the force in the gear.
-  /// @param carried_v  |V - P|, V the output of the amplifier, P the sum of the forces that depend on the
-  ///   position [V]: where P is a weight, motor and weight work against each other in the gear
+  /// @param carried_v  |V - P| [V], V the output of the amplifier, P the sum of the forces that depend on the
+  ///   position, for example a weight that the gear holds against the motor
   virtual void add_gear_friction(const State& /*state*/, double /*carried_v*/,
                                  PerAxis& /*friction_v*/) const noexcept {}
   /// Structure terms: subtracts the part of a drive's friction that acts beyond the structure.
   virtual void relieve_friction(const Parameters& /*crane*/, const State& /*state*/,
                                 PerAxis& /*friction_v*/) const noexcept {}
-  /// Load terms, once per tick: changes a force that varies at random over time. The force is constant within
-  /// a tick.
+  /// Load terms, once per tick: draws the next value of a random force. The force is constant within a tick.
   virtual void begin_tick(double /*period_s*/) noexcept {}
   /// Load terms: adds generalised forces of the load.
   virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
@@ -82,12 +81,12 @@ class Term {
   [[nodiscard]] virtual std::size_t inner_coordinates() const noexcept { return 0; }
   /// True when the inner coordinates oscillate freely, so that the inputs do not determine their state.
   [[nodiscard]] virtual bool rings() const noexcept { return inner_coordinates() > 0; }
-  /// Constant displacement; it adds to positions, not to rates.
+  /// Constant displacement, added to the positions only.
   [[nodiscard]] virtual Displacement rest_displacement(const Parameters& /*crane*/) const noexcept {
     return {};
   }
-  /// Adds the displacement. It is linear in `inner`, so that the same function serves positions, rates and
-  /// accelerations.
+  /// Adds the displacement. The displacement is linear in `inner`: the same function converts positions,
+  /// rates and accelerations.
   virtual void displace(const double* /*inner*/, Displacement& /*sum*/) const noexcept {}
   /// Adds generalised forces that depend on the inner coordinates, and computes the equations of motion of
   /// the inner coordinates. @param equations  all coefficients are 0
@@ -137,7 +136,7 @@ struct TermKind {
   ActsOn acts_on = ActsOn::drive;
   std::vector<std::string_view> axes;  ///< permitted values of TermSetting::axis; "": the term needs no axis
   std::vector<TermParameter> parameters;
-  TermSetting example;  ///< an effect large enough for the encoders of a laboratory crane
+  TermSetting example;  ///< an effect that the encoders of a laboratory crane can resolve
   /// @pre the setting has no problems and contains every parameter
   std::unique_ptr<Term> (*make)(const TermSetting& setting) = nullptr;
 };

@@ -55,8 +55,7 @@ struct Event {
 struct Advance {
   double elapsed_s = 0;        ///< integrated time: the whole span, or the time of the event
   std::optional<Event> event;  ///< the first event; nothing: no event
-  /// Suitable first step of the next span. Motions of successive spans are similar, and a step that is too
-  /// long must be repeated.
+  /// Suitable first step of the next span, whose motion is similar: a step that is too long must be repeated.
   double next_first_step_s = 0;
 };
 

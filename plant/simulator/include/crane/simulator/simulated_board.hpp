@@ -2,9 +2,9 @@
 /// A simulated rig that implements the interface of a board: equations of motion with encoders, converters,
 /// brakes, switches and watchdog relay.
 ///
-/// Encoders: the raw count is the nearest integer of sign * coordinate * counts_per_unit, wrapped to 24 bits
-/// and sign-extended. The coordinates are 0 at the zero of the rig (trolley at the tower axis, slew angle 0,
-/// cable length 0, load hanging at rest). The sensor terms of the model act once per reading time.
+/// Encoders: the raw count is the nearest integer of sign * (coordinate - zero) * counts_per_unit, wrapped to
+/// 24 bits and sign-extended. A coordinate is 0 with the trolley at the tower axis, slew angle 0, cable
+/// length 0, or the load at rest. The sensor terms of the model act once per reading time.
 ///
 /// Converters: see crane/bridge/converter.hpp. Drives: the voltage of the board, multiplied by the sign of
 /// the drive; then the command terms, once per tick.

@@ -53,7 +53,7 @@ struct SimulatedRig {
   plant::State start{.trolley_m = 0.25};
   Method integrator = Method::cvode;
   double period_s = 0.01;            ///< sampling period; command and sensor terms act once per period, > 0
-  bool estop_cuts_brakes = true;     ///< true: the wired emergency stop interrupts the brake supply
+  bool estop_cuts_brakes = true;     ///< true: the emergency stop interrupts the brake supply by wire
   double watchdog_timeout_s = 0.05;  ///< the relay opens when the level has not changed for longer than this
   double watchdog_permit_s = 0.05;   ///< an open relay closes after uninterrupted toggling for this time
 

@@ -1,5 +1,5 @@
 #pragma once
-/// One step of one axis with stiff friction: v' = a - g f(v). f is nearly odd and has a steep step at v = 0.
+/// One step of one axis with stiff friction: v' = a - g f(v), f in V. f is nearly odd and steep at v = 0.
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -9,22 +9,21 @@ namespace crane::stepper {
 
 /// m/s or rad/s: below this speed, the steep friction at standstill is integrated implicitly.
 inline constexpr double kImplicitSpeed = 0.004;
-/// m/s or rad/s: a slower axis is at rest. For a faster axis that reverses inside a step, the step is divided
-/// at the standstill.
+/// m/s or rad/s: a slower axis is at rest. A step in which a faster axis reverses is divided at standstill.
 inline constexpr double kRestSpeed = 2e-4;
 
-/// m/s or rad/s: above this speed the simulation has diverged. The root is not searched, because rounding
-/// would reduce its bracket to nothing.
+/// m/s or rad/s: above this speed the simulation has diverged, and rounding would make the bracket of the
+/// root empty.
 inline constexpr double kDivergedSpeed = 1e6;
 
 struct FrictionStep {
-  double speed = 0;     ///< at the end
-  double distance = 0;  ///< covered in the step
-  double friction = 0;  ///< mean [V]
+  double speed = 0;     ///< at the end of the step [m/s or rad/s]
+  double distance = 0;  ///< covered in the step [m or rad]
+  double friction = 0;  ///< mean over the step [V]
 };
 
 /// Root v of the increasing function v + k f(v) - c.
-/// @param near initial guess: the creep speed of an axis that sticks
+/// @param near  initial guess of v
 template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
@@ -55,8 +54,11 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
   return 0.5 * (root.first + root.second);
 }
 
-/// @param v speed at the start. @param a acceleration without friction. @param g deceleration per volt of
-/// friction. @param h step [s]
+/// @param v         speed at the start of the step [m/s or rad/s]
+/// @param a         acceleration without friction [m/s2 or rad/s2]
+/// @param g         deceleration per volt of friction [m/s2 or rad/s2 per V]
+/// @param h         length of the step [s]
+/// @param friction  friction at a speed [V]
 template <class Friction>
 FrictionStep friction_step(double v, double a, double g, double h, Friction&& friction) {
   if (std::abs(v) > kImplicitSpeed) {
@@ -66,10 +68,10 @@ FrictionStep friction_step(double v, double a, double g, double h, Friction&& fr
   }
   const double slope = a - g * friction(v);
   if (std::abs(v) > kRestSpeed && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
-    const double rest = h + v / slope;  // rest of the step after the stop
-    const double after = implicit_speed(rest * a, rest * g, friction);
+    const double remaining = h + v / slope;  // part of the step after the standstill [s]
+    const double after = implicit_speed(remaining * a, remaining * g, friction);
     const double mean_friction = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
-    return {after, 0.5 * v * (h - rest) + 0.5 * after * rest, mean_friction};
+    return {after, 0.5 * v * (h - remaining) + 0.5 * after * remaining, mean_friction};
   }
   const double end = implicit_speed(v + h * a, h * g, friction, v);
   const double mean_friction = h * g != 0 ? (v + h * a - end) / (h * g) : 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Outputs: the coordinates that sensors measure and that the stepper can simulate. Their kinematics, and
-/// access to the members of a State by Output.
+/// Outputs: the coordinates that sensors measure and the stepper can simulate. Kinematics of the outputs, and
+/// access to the members of plant::State by Output.
 #include <array>
 #include <cstddef>
 
@@ -9,7 +9,7 @@
 
 namespace crane::stepper {
 
-/// Coordinates that are measured and simulated.
+/// Measured coordinates, in the order of the arrays below.
 enum Output : std::size_t { kTrolleyPosition = 0, kSlewAngle = 1, kRadialSwing = 2, kTangentialSwing = 3 };
 inline constexpr std::size_t kOutputs = 4;
 /// Coordinate of each output.

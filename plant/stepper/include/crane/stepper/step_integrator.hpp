@@ -24,13 +24,14 @@ class StepIntegrator {
   std::array<bool, plant::kMostInner> prescribed{};
   std::array<Kinematics, plant::kMostInner> prescribed_at{};
 
+  /// @param drive_v  output of the amplifiers from the next step on [V]
   void new_command(const plant::PerAxis& drive_v);
   /// Advances the simulated outputs by one step. prescribe() sets the other outputs.
-  /// @param at measured kinematics in the middle of the step
+  /// @param at  measured kinematics in the middle of the step
   void step(const MeasuredKinematics& at);
-  /// @return accelerations of the model in the middle of the next step. The simulated outputs are
-  ///   extrapolated by half a step, the other outputs have the kinematics `at`, and the inner coordinates
-  ///   keep their present state
+  /// @return accelerations of the model in the middle of the next step: the simulated outputs are
+  ///   extrapolated by half a step, the other outputs have the kinematics `at`, the inner coordinates their
+  ///   present state
   [[nodiscard]] plant::Accelerations accelerations(const MeasuredKinematics& at);
   /// Sets the outputs that are not simulated, and the cable, to measured kinematics.
   void prescribe(const MeasuredKinematics& at);

@@ -1,5 +1,5 @@
 #pragma once
-/// Causes that the twin can name. Most causes are a term of plant/model with a reference size. A deviation
+/// Causes that the twin can name. Most causes are terms of plant/model with a reference size. A deviation
 /// below half of the reference size raises no event.
 #include <span>
 #include <string>
@@ -13,7 +13,7 @@ namespace crane::twin {
 
 /// One row of the table of the causes. docs/twin.md shows the table.
 struct CauseKind {
-  const char* name;       ///< name of the term or of the step of the residual, or "unknown"
+  const char* name;       ///< of the term or of the step in the residual, or "unknown"
   const char* parameter;  ///< of the term that has the size; nullptr: the cause is not a term of the model
   std::vector<double> sizes;  ///< reference sizes; empty: no hypothesis
   bool either_sign;           ///< true: one hypothesis for each sign

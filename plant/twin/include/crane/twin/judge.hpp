@@ -15,9 +15,9 @@ namespace crane::twin {
 struct Design {
   double horizon_s = 0.3;       ///< time constant of the predictor, > 0
   double block_s = 0.5;         ///< length of a block; each block is one observation, > 0
-  double settle_s = 2;          ///< time without judgement after a restart
-  double learn_s = 20;          ///< duration of in-control motion from which the scatter is learnt
-  double false_alarm_s = 36e3;  ///< mean judged time between false alarms of all tests together
+  double settle_s = 2;          ///< time without judgement after a restart, >= 0
+  double learn_s = 20;          ///< duration of the motion from which the scatter is learnt, > 0
+  double false_alarm_s = 36e3;  ///< mean judged time between false alarms of all tests together, > 0
 };
 
 /// Sums over the ticks of one block. The unit of all amounts is the reference size of a hypothesis.
@@ -59,10 +59,11 @@ class Judge {
   void found(const Finding& step);
 
   [[nodiscard]] Phase phase() const { return phase_; }
-  [[nodiscard]] double learnt_share() const;
+  [[nodiscard]] double learnt_share() const;  ///< learnt part of Design::learn_s, [0, 1]
   /// Statistic of the strongest test, divided by its threshold; 1 raises the alarm.
   [[nodiscard]] double evidence() const;
-  [[nodiscard]] const PerColumn& band() const { return band_; }  ///< 0 until learnt
+  /// Three standard deviations of the residual; 0 until learnt.
+  [[nodiscard]] const PerColumn& band() const { return band_; }
   /// The most likely cause after an alarm. It may change until named() is true.
   [[nodiscard]] const std::optional<Finding>& finding() const { return finding_; }
   [[nodiscard]] bool named() const { return named_; }
@@ -107,7 +108,7 @@ class Judge {
   std::vector<Hypothesis> hypotheses_;
   Design design_;
   PerColumn variance_{}, band_{};
-  std::vector<double> inflation_;  ///< variance of the scores / their variance for white residuals
+  std::vector<double> inflation_;  ///< variance of the scores / variance for white residuals
   double threshold_;
   std::vector<Block> learnt_from_;
   double learnt_s_ = 0;

@@ -3,8 +3,8 @@
 /// (observer with the time constant T, the horizon). With rho = exp(-h / T), h the period and e = measured -
 /// predicted:
 ///   position += (1 - rho^2) e,   rate += (1 - rho)^2 / h e
-/// Both poles of the error are rho. A constant error a of the acceleration gives e -> a T^2. Errors decay
-/// with T and do not accumulate.
+/// Both poles of the error are rho: errors decay with the time constant T. A constant error a of the
+/// acceleration gives e -> a T^2.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,7 +17,7 @@ namespace crane::twin {
 
 /// Measured values of one tick.
 struct Known {
-  PerColumn reported{}, rate{};
+  PerColumn reported{}, rate{};  ///< m or rad; m/s or rad/s
   double cable_m = 1, cable_mps = 0;
 };
 
@@ -33,6 +33,7 @@ class Predictor {
   /// tick.
   /// @pre restart() was called
   const PerColumn& predict(const plant::PerAxis& applied_v, const Known& now);
+  /// Corrects the state with the measured values of the predicted tick.
   void correct(const PerColumn& reported);
   [[nodiscard]] const PerColumn& predicted() const { return predicted_; }
 

@@ -1,14 +1,17 @@
 #pragma once
 /// Detects a step in the residual of one column: a jump of the encoder (step of the measured value), or a
-/// push of the load (step of its rate). The residual of both decays within the horizon of the predictor. The
-/// shape over the next ticks decides between them. The onset of a constant force is not reported; Judge
-/// detects it.
+/// push of the load (step of its rate). Both residuals decay within the horizon of the predictor; their
+/// shapes over the next ticks distinguish them. A constant force is not reported here, because Judge detects
+/// it.
 #include <array>
 #include <optional>
 
 namespace crane::twin {
 
-enum class StepKind { slip, push };
+enum class StepKind {
+  slip,  ///< the encoder has jumped
+  push   ///< the load was pushed
+};
 struct Step {
   StepKind kind = StepKind::slip;
   double size = 0;  ///< slip: m or rad; push: rad/s
@@ -16,8 +19,9 @@ struct Step {
 
 class StepWatch {
  public:
-  /// @param least_jump  smallest jump: larger than the effect of resolution and unexpected acceleration in
-  ///   one tick
+  /// @param horizon_s   time constant of the predictor
+  /// @param least_jump  smallest jump, m or rad: larger than the effect of resolution and unexpected
+  ///   acceleration in one tick
   StepWatch(double period_s, double horizon_s, double least_jump);
   /// Discards the stored residuals and keeps the learnt limits.
   void restart();

@@ -18,23 +18,30 @@ struct Sample {
   std::uint64_t tick = 0;
   std::uint32_t epoch = 0;               ///< start-up number of the writer
   std::array<std::int64_t, 5> counts{};  ///< trolley, slew, hoist, radial, tangential swing; unwrapped
-  PerColumn rate{};                      ///< filtered rates, for the initial state of a prediction
+  PerColumn rate{};                      ///< filtered rates for the start of a prediction, m/s or rad/s
   double cable_mps = 0;
   plant::PerAxis applied_v{};             ///< voltage that acts from this tick on
   bool homed = true;                      ///< true: all positions are known
   std::array<bool, plant::kAxes> held{};  ///< true: a closed brake or an end of travel holds the axis
 };
 
-enum class State : std::uint8_t { waiting, learning, watching, deviates };
+enum class State : std::uint8_t {
+  waiting,   ///< no prediction, or Design::settle_s after a restart has not passed
+  learning,  ///< Phase::learning
+  watching,  ///< Phase::watching
+  deviates   ///< Phase::deviates
+};
 
+/// Result of one tick.
 struct Judgement {
   State state = State::waiting;
-  PerColumn predicted{}, residual{}, band{};
-  double evidence = 0;
-  std::string cause, axis, unit;
-  double size = 0, size_std = 0;
-  double learnt_share = 0;
-  std::uint64_t judged_ticks = 0, gaps = 0;
+  PerColumn predicted{}, residual{}, band{};  ///< m or rad; residual: measured minus predicted
+  double evidence = 0;                        ///< Judge::evidence()
+  std::string cause, axis, unit;              ///< most likely cause; empty without a deviation
+  double size = 0, size_std = 0;              ///< of the cause, in `unit`
+  double learnt_share = 0;                    ///< Judge::learnt_share()
+  std::uint64_t judged_ticks = 0;
+  std::uint64_t gaps = 0;  ///< interruptions of the prediction
 };
 
 /// Message for crane/event: one per deviation, and one when the deviation ends.
