@@ -211,7 +211,7 @@ Measurement at_effect(const CraneEstimate& estimate) noexcept {
 
 namespace {
 
-/// Gives the law the state of the crane at the time when its command acts.
+/// A law whose input is the predicted state of the crane at the time when the command acts.
 class ObservedLaw final : public Law {
  public:
   ObservedLaw(std::unique_ptr<Law> law, const Design& design)

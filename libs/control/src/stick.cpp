@@ -24,7 +24,7 @@ ShaperImpulses shares_of(Shaping shaping, std::size_t half_ticks, double period_
   return shares;
 }
 
-/// Largest change of speed in one tick and the tick.
+/// Largest change of speed in one tick, unit/s, and duration of the tick.
 struct RateLimit {
   double change, period_s;
 };
@@ -165,15 +165,15 @@ bool s_at_rest(const StickMemory& memory) noexcept {
   });
 }
 
-/// Limits of s. They leave room for the additional motion of P that slewing and hoisting cause.
-/// tests/control/stick_test.cpp measures the room that random histories need.
+/// Limits of s: those of P minus the additional motion of P by slewing and hoisting, which
+/// tests/control/stick_test.cpp measures for random histories.
 std::array<StickAxisLimits, kAxes> limits_of_s(const StickLimits& limits,
                                                const Reference& reference) noexcept {
-  constexpr double kHoisting = 0.9;  // share for s while the cable may move
-  constexpr double kSlewing = 0.5;   // share for s while the jib may slew
-  constexpr double kThrown = 0.08;   // r gamma'^2 / acceleration of the trolley
-  constexpr double kRoom = 0.02;     // share of the radius between the limits of s and P
-  constexpr double kTurn = 0.05;     // rad between the limits of s and P
+  constexpr double kHoisting = 0.9;  // limits of s / limits of P in a session with hoisting
+  constexpr double kSlewing = 0.5;   // limits of s / limits of P in a session with slewing
+  constexpr double kThrown = 0.08;   // largest r gamma'^2 / acceleration limit of the trolley
+  constexpr double kRoom = 0.02;     // distance between the radial limits of s and P / radius
+  constexpr double kTurn = 0.05;     // distance between the slew limits of s and P, rad
   auto axis = limits.axis;
   const auto scale = [&axis](std::size_t i, double share) {
     axis[i].speed *= share;

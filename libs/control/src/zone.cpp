@@ -16,7 +16,7 @@ double outline_distance_m(const Zone& zone, double x_m, double y_m) noexcept {
 }
 
 constexpr int kMostSteps = 2000;
-constexpr double kStep_m = 0.005;  // between two points of a path
+constexpr double kStep_m = 0.005;  // distance between two checked points of a path
 constexpr double kRounding_m = 1e-9;
 
 int steps_of(const plant::PerAxis& from, const plant::PerAxis& to) noexcept {

@@ -12,10 +12,10 @@ namespace {
 
 using adaptation::AxisAdaptation;
 
-constexpr double kExecuted_v = 0.01;  // rounding of the analog output: at most 2.5 mV at 13 bit and 10 V
-constexpr double kModelledSwing_rad = 0.35;  // 20 deg: larger swing excites effects outside the force balance
-constexpr double kHoistingMean_s = 0.1;
-constexpr double kHoisting_mps = 0.01;  // cable speed that counts as rest
+constexpr double kExecuted_v = 0.01;  // above the rounding of the analog output: 2.5 mV at 13 bit and 10 V
+constexpr double kModelledSwing_rad = 0.35;  // 20 deg; larger swing has effects outside the force balance
+constexpr double kHoistingMean_s = 0.1;      // time constant of the mean cable speed
+constexpr double kHoisting_mps = 0.01;       // largest mean cable speed that counts as rest
 constexpr double kRestAfterMove_s = 0.5;
 
 bool is_finite(const AdaptationInput& input) noexcept {

@@ -7,26 +7,30 @@
 namespace crane::control::adaptation {
 namespace {
 
-constexpr int kBlock_ticks = 6;         // quantisation of the slew encoder: 0.01 V over 6 ticks
-constexpr int kSkipped_ticks = 2;       // of a motion: span of the second difference
-constexpr double kLearnBands = 2;       // zero bands: the break-away excess has decayed above this speed
-constexpr double kMargin = 1;           // standard deviations between an estimate and the level in use
-constexpr double kLowerMargin = 2;      // standard deviations of the friction that a motion shows
-constexpr double kExcitedShare = 0.06;  // of the level: largest standard deviation of a level in use
-constexpr int kLeastBlocks = 3;         // of a direction before its levels are used
-constexpr double kDeadShare = 0.003;    // of the level: smaller changes are not installed
-constexpr double kLowerShare = 0.01;    // of the level: least excess that lowers it during a motion
-constexpr int kLowerBlocks = 2;         // in a row that show the excess
-constexpr double kRamp_vps = 1;         // largest rate of a level in use
-constexpr int kRefused = 5;             // blocks in a row: the friction has changed
-constexpr double kCeilingCut = 0.9;     // of the used level, after an oscillation
-constexpr double kLeastUnknown =
-    0.75;  // of the rig file's level: an oscillation lowers an unknown level to it
-constexpr double kCeilingRise = 1.02;  // per move without one
-constexpr int kFrozenMoves = 2;        // after a roll-back
-constexpr int kJudgedBlocks = 4;       // of a move that judges a set
-constexpr double kWorse = 1.5;         // rms of the used set against the one before
-constexpr double kWorse_v = 0.03;
+// Chosen values; docs/adaptation.md explains the method. "Level of the file": level of the rig file.
+constexpr int kBlock_ticks = 6;    // duration of a block: quantises the friction of the slew axis by 0.01 V
+constexpr int kSkipped_ticks = 2;  // start of a motion: the second difference still covers the time at rest
+constexpr double kLearnBands = 2;  // lowest speed / zero band: the break-away excess has decayed above
+constexpr double kMargin = 1;      // estimate minus level in use, in standard deviations
+constexpr int kLeastBlocks = 3;    // fewest blocks of a direction before its levels are used
+constexpr double kDeadShare = 0.003;  // smallest change that is installed / level of the file
+constexpr double kRamp_vps = 1;       // largest rate of change of a level in use
+constexpr int kRefused = 5;           // consecutive refused blocks after which the friction counts as changed
+constexpr int kFrozenMoves = 2;       // moves without learning after a roll-back
+constexpr int kJudgedBlocks = 4;      // fewest blocks of a move that judges the levels in use
+// Largest standard deviation of a level that is used / level of the file.
+constexpr double kExcitedShare = 0.06;
+// A level falls during a motion when the compensation exceeds the friction of kLowerBlocks consecutive blocks
+// by kLowerMargin standard deviations plus kLowerShare of the Coulomb level of the file.
+constexpr double kLowerMargin = 2, kLowerShare = 0.01;
+constexpr int kLowerBlocks = 2;
+// An oscillation lowers a level to kCeilingCut of the known friction, or to kLeastUnknown of the level of the
+// file, but not below kCeilingCut of the level.
+constexpr double kCeilingCut = 0.9, kLeastUnknown = 0.75;
+constexpr double kCeilingRise = 1.02;  // factor of the largest permitted level per move without oscillation
+// The previous levels return when the rms residual of the levels in use exceeds kWorse times that of the
+// previous levels plus kWorse_v.
+constexpr double kWorse = 1.5, kWorse_v = 0.03;
 
 constexpr std::size_t direction_of(double speed) { return speed > 0 ? 0 : 1; }
 double squared_v(double value) noexcept { return value * value; }
@@ -66,7 +70,7 @@ void AxisAdaptation::step(const AxisBalance* balance, AdaptationFreeze reason, L
     moves_ = speed_ > kLearnBands * zero_band_;
   } else {
     speed_ = std::abs(balance->speed);
-    // the acceleration of a block is the difference of two speeds over its duration
+    // the mean acceleration of a block is the difference of two speeds divided by its duration
     const double noise = filter.noise_v(axis_) * gain_ * kBlock_ticks * period_s_ / std::numbers::sqrt2;
     if (limit_cycle_.step(balance->speed, noise)) oscillates(filter);
     moves_ = std::abs(limit_cycle_.mean_speed()) > kLearnBands * zero_band_;
@@ -95,7 +99,7 @@ void AxisAdaptation::learn(const AxisBalance& balance, LevelFilter& filter) noex
   if (direction != block_direction_) leave_block(), skipped_ticks_ = 0;
   const double side = direction == 0 ? 1 : -1;
   block_direction_ = direction;
-  if (++skipped_ticks_ <= kSkipped_ticks) return;  // the balance still covers a time at rest
+  if (++skipped_ticks_ <= kSkipped_ticks) return;
   skipped_ticks_ = kSkipped_ticks;
   block_.free_v += side * balance.free_v;
   block_.load_vpkg += side * balance.load_vpkg;
@@ -185,7 +189,7 @@ void AxisAdaptation::oscillates(const LevelFilter& filter) noexcept {
     FrictionLevels& target = target_[d];
     if (on_trial_ && good_[d].static_v < target.static_v) target.static_v = good_[d].static_v;
     if (on_trial_ && good_[d].coulomb_v < target.coulomb_v) target.coulomb_v = good_[d].coulomb_v;
-    // a level below kCeilingCut of the known friction does not cause an oscillation
+    // a level of at most kCeilingCut of the known friction cannot cause an oscillation
     const bool known = excited(d, filter);
     const double coulomb_v =
         known ? kCeilingCut * filter.coulomb_v(axis_, d).value : kLeastUnknown * file_[d].coulomb_v;

@@ -1,9 +1,10 @@
 #pragma once
-/// Adaptation of one axis: collects blocks and break-aways, decides which levels the compensation uses.
-///   reduction in motion: the levels of a direction whose blocks show less friction than is compensated
-///   installation at rest: the levels of the excited directions, at the end of a move
-///   return to the previous set: when the next move contradicts the installed set, or when the axis
-///   oscillates about its rest
+/// Adaptation of one axis: collects blocks and break-aways, and selects the levels that the compensation
+/// uses.
+///   reduction in motion   of a direction whose blocks show less friction than is compensated
+///   installation at rest  at the end of a move, of the directions that the move has excited
+///   return                to the previous levels, when the next move contradicts the installed levels or the
+///                         axis oscillates about its rest
 #include "adaptation/break_away.hpp"
 #include "adaptation/force_balance.hpp"
 #include "adaptation/level_filter.hpp"
@@ -16,10 +17,10 @@ class AxisAdaptation {
   AxisAdaptation(const Design& design, std::size_t axis);
 
   [[nodiscard]] bool adapts() const noexcept { return adapts_; }
-  /// @param balance  nullptr: not known at this tick
+  /// @param balance  nullptr: unknown at this tick
   /// @param reason   why the axis must not learn from this tick
   void step(const AxisBalance* balance, AdaptationFreeze reason, LevelFilter& filter) noexcept;
-  /// All axes have come to rest after a motion.
+  /// Call when all axes have come to rest after a motion.
   void end_move(LevelFilter& filter) noexcept;
   [[nodiscard]] bool moves() const noexcept { return moves_; }
   [[nodiscard]] const AxisReport& report() const noexcept { return report_; }
@@ -45,17 +46,17 @@ class AxisAdaptation {
   DriveFriction friction_;  ///< with the used levels
   Set file_, used_, target_, good_;
   BreakAway break_away_;
-  std::array<double, 2> ceiling_{};  ///< largest levels, share of the rig file's
+  std::array<double, 2> ceiling_{};  ///< largest permitted level / level of the rig file, by direction
   LimitCycle limit_cycle_;
   Block block_;
   int block_ticks_ = 0, skipped_ticks_ = 0;
   std::size_t block_direction_ = 0;
   int refused_in_a_row_ = 0, excess_blocks_ = 0;
-  double speed_ = 0;  ///< magnitude
+  double speed_ = 0;  ///< magnitude, m/s or rad/s
   bool moves_ = false;
   double used_squares_ = 0, good_squares_ = 0;
   int judged_blocks_ = 0, frozen_moves_ = 0;
-  bool on_trial_ = false;  ///< the target differs from the last good set
+  bool on_trial_ = false;  ///< true: no move has judged the target yet
   AdaptationFreeze held_ = AdaptationFreeze::none;
   AxisReport report_;
 };

@@ -6,13 +6,15 @@
 namespace crane::control::adaptation {
 namespace {
 
-constexpr double kExcessShare = 0.15;  // of the break-away level: standard deviation of its excess
-constexpr double kBreakAway_v = 0.04;  // standard deviation of one break-away
-constexpr int kRest_ticks = 5;         // within the zero band before a break-away
-constexpr int kMean_ticks = 3;         // of a break-away
-constexpr double kCreepBands = 0.4;    // zero bands: the break-away excess acts below this speed
-constexpr double kMeanScatter = 2;     // of a mean over kMean_ticks, scatters of a block: 1 / duration
-constexpr double kCredible = 25;       // variances of the excess: largest square of the error
+constexpr double kExcessShare = 0.15;  // initial standard deviation of the excess / break-away level
+constexpr double kBreakAway_v = 0.04;  // standard deviation of one measured break-away
+constexpr int kRest_ticks = 5;         // shortest time within the zero band before a break-away
+constexpr int kMean_ticks = 3;         // duration of the mean that measures a break-away
+constexpr double kCreepBands = 0.4;    // largest speed with the full break-away excess / zero band
+// Scatter of a mean over kMean_ticks / scatter of a block of twice this duration: proportional to 1 /
+// duration.
+constexpr double kMeanScatter = 2;
+constexpr double kCredible = 25;  // largest squared error / its variance: five standard deviations
 
 constexpr double squared_excess_v(double value) noexcept { return value * value; }
 
@@ -37,7 +39,7 @@ void BreakAway::rest(double friction_v, double speed) noexcept {
 
 bool BreakAway::rested() const noexcept { return rest_ticks_ >= kRest_ticks; }
 
-/// The largest friction while the axis hardly moved, as a mean over kMean_ticks, minus the scatter of such a
+/// Measures the break-away level: largest mean friction over kMean_ticks of creep, minus the scatter of this
 /// mean.
 bool BreakAway::learn(std::size_t direction, double coulomb_v, double scatter_v) noexcept {
   const int known = std::min(rest_ticks_, kHistory);

@@ -19,12 +19,12 @@ class BreakAway {
   /// @param share  largest deviation of a level from that of the rig file, as a share
   BreakAway(const DriveFriction& file, double share) noexcept;
 
-  /// One tick within the zero band. @param speed  magnitude, m/s or rad/s
+  /// Call at each tick within the zero band. @param speed  magnitude, m/s or rad/s
   void rest(double friction_v, double speed) noexcept;
   /// True after enough ticks within the zero band for a break-away.
   [[nodiscard]] bool rested() const noexcept;
   void leave_rest() noexcept { rest_ticks_ = 0; }
-  /// The axis has left the zero band.
+  /// Call when the axis has left the zero band.
   /// @param direction  0: positive, 1: negative
   /// @param scatter_v  standard deviation of the friction of a block
   /// @return false if these ticks show no break-away level
@@ -39,7 +39,7 @@ class BreakAway {
   std::array<Excess, 2> excess_;
   int rest_ticks_ = 0;
   std::array<double, kHistory> resting_v_{};  ///< friction of the last ticks within the zero band
-  std::array<bool, kHistory> creeping_{};     ///< true: the axis hardly moved at this tick
+  std::array<bool, kHistory> creeping_{};     ///< true: the speed was within kCreepBands zero bands
 };
 
 }  // namespace crane::control::adaptation

@@ -1,6 +1,6 @@
 #pragma once
-/// Force balance of trolley and slew axis between two ticks: the volts that friction takes. With u the mean
-/// voltage, T the tension of the cable and e its unit vector from the suspension point to the load,
+/// Force balance of trolley and slew axis between two ticks: friction in volts. With u the mean voltage, T
+/// the tension of the cable and e its unit vector from the suspension point to the load,
 ///   f_x     = u - x''/K_mx + (M_j x gamma'^2 + T e_x) / (M K_mx)
 ///   f_gamma = u - gamma''/K_mg + (x T e_y - M_j x^2 gamma'' - 2 M_j x x' gamma') / (J_o K_mg)
 /// T is proportional to the payload m: f = free + m * load. Accelerations are second differences of the
@@ -14,7 +14,7 @@ namespace crane::control::adaptation {
 struct AxisBalance {
   double free_v = 0;     ///< friction of a crane without payload
   double load_vpkg = 0;  ///< added per kg of payload
-  double inertia_v = 0;  ///< volts that the acceleration of the drive takes
+  double inertia_v = 0;  ///< voltage that accelerates the drive
   double speed = 0;      ///< m/s or rad/s
 };
 using Balance = std::array<AxisBalance, kAdaptedAxes>;

@@ -6,16 +6,16 @@
 namespace crane::control::adaptation {
 namespace {
 
-constexpr double kLeastScatter_v = 0.02;    // of a block: effects that the force balance omits
-constexpr double kFirstScatter_v = 0.05;    // before any block
-constexpr double kScatterMemory = 0.95;     // per block
-constexpr double kWalkShare = 0.002;        // of the level, per accepted block
-constexpr double kPayloadWalkShare = 0.03;  // of the payload, per move
-constexpr double kPayloadShare = 0.3;       // standard deviation of the payload of the rig file
-constexpr double kPayloadBound = 0.9;       // bounds: 1 - share and 2 + share of the rig file's payload
-constexpr double kInertiaShare = 0.05;      // standard deviation of the inertia per volt of the rig file
-constexpr double kInertiaBound = 0.3;
-constexpr double kImplausible = 5;  // standard deviations
+constexpr double kLeastScatter_v = 0.02;    // smallest scatter of a block: effects outside the force balance
+constexpr double kFirstScatter_v = 0.05;    // scatter before the first block
+constexpr double kScatterMemory = 0.95;     // weight of the earlier blocks in the variance of a block
+constexpr double kWalkShare = 0.002;        // random walk of a level per block / level of the rig file
+constexpr double kPayloadWalkShare = 0.03;  // random walk of the payload per move / payload of the rig file
+constexpr double kPayloadShare = 0.3;       // initial standard deviation of the payload / payload
+constexpr double kPayloadBound = 0.9;       // the payload stays within 0.1 and 2.9 times that of the rig file
+constexpr double kInertiaShare = 0.05;      // initial standard deviation of r
+constexpr double kInertiaBound = 0.3;       // largest |r|
+constexpr double kImplausible = 5;          // largest |innovation|, in standard deviations
 
 double squared(double value) noexcept { return value * value; }
 

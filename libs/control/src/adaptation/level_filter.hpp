@@ -17,28 +17,28 @@ struct Block {
 
 class LevelFilter {
  public:
-  static constexpr int kStates =
-      11;  ///< (c, b) of axis 0 positive, negative, axis 1 positive, negative; m; r
+  /// (c, b) of axis 0 positive, axis 0 negative, axis 1 positive, axis 1 negative; m; r of both axes.
+  static constexpr int kStates = 11;
   explicit LevelFilter(const Design& design);
 
   struct Innovation {
-    double value_v = 0, deviation_v = 0;  ///< deviation: expected, of the estimates and of the scatter
+    double value_v = 0, deviation_v = 0;  ///< deviation: expected standard deviation
     bool plausible = true;
   };
-  /// What the estimates leave unexplained.
+  /// Measured minus estimated friction of a block.
   [[nodiscard]] Innovation innovation(std::size_t axis, std::size_t direction,
                                       const Block& block) const noexcept;
   void update(std::size_t axis, std::size_t direction, const Block& block) noexcept;
-  /// Returns the certainty of a direction to that of the rig file; the estimates stay.
+  /// Resets the covariance of a direction to that of the rig file; the estimates do not change.
   void forget(std::size_t axis, std::size_t direction) noexcept;
-  /// The payload may have changed: called at the end of a move.
+  /// Call at the end of a move: the payload may have changed.
   void loosen_payload() noexcept;
 
-  /// Friction that a block shows, with the estimated payload and inertia.
+  /// Friction of a block with the estimated payload and inertia.
   [[nodiscard]] double friction_v(std::size_t axis, const Block& block) const noexcept;
   /// Friction at a speed, c + b |v|.
   [[nodiscard]] Estimated moving_v(std::size_t axis, std::size_t direction, double speed) const noexcept;
-  /// Standard deviation of a block that the model does not explain.
+  /// Standard deviation of a block beyond that of the estimates.
   [[nodiscard]] double scatter_v(std::size_t axis) const noexcept;
   /// Part of scatter_v() above the least scatter: noise of the encoder.
   [[nodiscard]] double noise_v(std::size_t axis) const noexcept;

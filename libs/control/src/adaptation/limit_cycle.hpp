@@ -1,5 +1,5 @@
 #pragma once
-/// Detects an oscillation of an axis about its rest: reversals of the motion whose speed does not decay.
+/// Detects a limit cycle: an oscillation of an axis about its rest whose speed does not decay.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,18 +36,18 @@ class LimitCycle {
     reversals_ = 0;
     return last_peak_ >= kKeptInAll * first_peak_;
   }
-  /// Mean over the last ticks: less noise of the encoder.
+  /// Mean speed over the last kMean ticks.
   [[nodiscard]] double mean_speed() const noexcept { return mean_; }
 
  private:
-  static constexpr double kLeastBands = 0.4;  // zero bands: smaller speeds are rest
-  static constexpr double kNoise = 1;         // deviations of one speed, three of the mean over kMean ticks
-  static constexpr int kReversals = 8;        // a damped swing of the support decays within three
-  static constexpr double kKept = 0.6;        // of the peak speed, from one half period to the next
-  static constexpr double kKeptInAll = 0.5;   // of the first peak speed, after all reversals
-  static constexpr double kLongestTravel = 0.1;  // m or rad per half period: a longer one is a move
-  static constexpr double kLongest_s = 3;        // between two reversals
-  static constexpr std::size_t kMean = 4;        // ticks: reduces the noise of the encoder
+  static constexpr double kLeastBands = 0.4;     // largest speed at rest / zero band
+  static constexpr double kNoise = 1;            // largest speed at rest / standard deviation of raw_speed
+  static constexpr int kReversals = 8;           // a damped swing of the support decays within three
+  static constexpr double kKept = 0.6;           // smallest ratio of successive peak speeds
+  static constexpr double kKeptInAll = 0.5;      // smallest ratio of the last to the first peak speed
+  static constexpr double kLongestTravel = 0.1;  // longest travel of a half period, m or rad
+  static constexpr double kLongest_s = 3;        // longest time between two reversals
+  static constexpr std::size_t kMean = 4;        // ticks of the mean speed: reduces the noise of the encoder
 
   double smooth(double speed) noexcept {
     last_[next_] = speed;

@@ -6,20 +6,24 @@
 namespace crane::control::adaptation {
 namespace {
 
-constexpr double kLengthShare = 0.2;       // standard deviation of the measured cable length
-constexpr double kLengthBound = 0.5;       // the pendulum stays within 1 +- this share of the measured length
-constexpr double kFirstOffset_rad = 0.02;  // standard deviation of the offsets
-constexpr double kOffsetWalk_rad = 2e-5;   // per block
-constexpr double kLengthWalk_m = 2e-4;     // per block
-constexpr double kLeastAcceleration_mps2 = 0.05;  // scatter of a block: terms of second order, encoder counts
-constexpr double kScatterKept = 0.95;             // per block
-constexpr double kMostRate_radps = 0.5;           // of the other axis: its terms of second order are omitted
-constexpr double kMostSpeed_mps = 0.2;
-constexpr double kLeastCurvature = 5;    // standard deviations of its noise, which would shorten the pendulum
-constexpr double kReadingMemory = 200;   // ticks
-constexpr double kImplausibleError = 4;  // standard deviations
-constexpr int kRefusedBlocks = 10;       // in a row: the load has changed
-constexpr double kMostSwing_rad = 0.25;  // sin and cos of the other plane are 0 and 1
+constexpr double kLengthShare = 0.2;       // initial standard deviation of the length / cable length
+constexpr double kLengthBound = 0.5;       // largest |length - cable length| / cable length
+constexpr double kFirstOffset_rad = 0.02;  // initial standard deviation of the offsets
+constexpr double kOffsetWalk_rad = 2e-5;   // random walk of an offset per block
+constexpr double kLengthWalk_m = 2e-4;     // random walk of the length per block
+// Smallest standard deviation of a block: terms of second order, quantisation of the encoders.
+constexpr double kLeastAcceleration_mps2 = 0.05;
+constexpr double kScatterKept = 0.95;  // weight of the earlier blocks in the variance of a block
+// Largest speed of slew axis (radial plane) and trolley (tangential plane): their terms of second order are
+// omitted.
+constexpr double kMostRate_radps = 0.5, kMostSpeed_mps = 0.2;
+// Smallest curvature of the swing that corrects the length / standard deviation of the curvature. Noise of
+// the curvature would shorten the pendulum (errors in variables).
+constexpr double kLeastCurvature = 5;
+constexpr double kReadingMemory = 200;   // time constant of the variance of a reading, ticks
+constexpr double kImplausibleError = 4;  // largest error, in standard deviations
+constexpr int kRefusedBlocks = 10;       // consecutive refused blocks after which the load counts as changed
+constexpr double kMostSwing_rad = 0.25;  // largest swing: the equations neglect the swing of the other plane
 
 double square_of(double value) noexcept { return value * value; }
 
@@ -115,7 +119,7 @@ void LoadEstimate::update(std::size_t plane, double curvature, double known) noe
   double& scatter = scatter_[plane];
   const bool plausible = square_of(error) <= square_of(kImplausibleError) * (explained + scatter);
   refused_[plane] = plausible ? 0 : refused_[plane] + 1;
-  if (!plausible && refused_[plane] < kRefusedBlocks) return;  // a blow on the load
+  if (!plausible && refused_[plane] < kRefusedBlocks) return;  // the load was pushed
   scatter =
       std::max(square_of(kLeastAcceleration_mps2),
                kScatterKept * scatter + (1 - kScatterKept) * std::max(0.0, square_of(error) - explained));

@@ -1,6 +1,6 @@
 #pragma once
 /// Length of the pendulum and offset of the swing angles, from the equations of the swing over 2N ticks. With
-/// D2 the second difference over N ticks and < > the mean with the triangular weight that belongs to it:
+/// D2 the second difference over N ticks and < > the mean with the corresponding triangular weight:
 ///   radial      L (D2 phi + <theta> D2 gamma + <2 gamma' theta' - phi gamma'^2>)
 ///                 = D2 x - <x gamma'^2> - g <sin phi> + g o_r
 ///   tangential  L (D2 theta - <phi> D2 gamma - <2 gamma' phi' + theta gamma'^2>)

@@ -15,8 +15,8 @@ using std::numbers::pi;
 constexpr double kStep = 5e-4;   // integration step, load periods
 constexpr int kSampleEvery = 2;  // integration steps per sample
 constexpr double kDuration = 2;  // duration of an experiment, load periods
-// Duration of a transfer, load periods. The source does not state it. Among the durations from one half to
-// two, this one gives the table nearest to the printed table.
+// Duration of a transfer, load periods; not in the source. Among the durations from 0.5 to 2, this value
+// gives the table nearest to the printed one.
 constexpr double kTransfer = 0.75;
 
 /// Integrates (3.27), (3.28) with tracking (3.40) and delayed_1 (3.47) by the semi-implicit Euler method.

@@ -25,10 +25,10 @@ struct LqrGains {
   double position, speed, swing, swing_rate;
 };
 
-// w; a smaller value: faster, more volts, less tolerance of a wrong cable length
+// w. A smaller value gives a faster law with more volts and less tolerance to errors of the cable length.
 constexpr double kEffortWeight = 1;
-// w with a plan, for the distance from the plan. 0.05 settles maneuver 2 in 2.22 s instead of 2.37 s, and a
-// cable 20 % shorter than measured makes it unstable.
+// w for the distance from a plan. With 0.05, maneuver 2 settles in 2.22 s instead of 2.37 s, but the loop is
+// unstable with a cable 20 % shorter than measured.
 constexpr double kPlanEffortWeight = 0.18;
 
 /// Riccati equation A'P + PA - P b b' P / w + q q' = 0 by integration of its differential equation to the

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostNodes = 8000;     // bounds time and memory of a search
 constexpr double kSpacing_m = 0.04;  // smallest distance of neighbouring nodes over the ground
-constexpr int kEndCells = 2;  // nodes on each side of a start or target that are tried as its neighbours
+constexpr int kEndCells = 2;         // candidates for neighbours of start and target: nodes on each side
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// Evenly spaced values of one axis.

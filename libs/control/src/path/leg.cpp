@@ -7,14 +7,13 @@
 namespace crane::control {
 namespace {
 
-// The values are chosen, not derived. A wrong value causes a longer move or a stop by the zone filter. Only
-// the zone filter keeps the load out of the zones.
-// lowest speed over the ground; below it friction makes the motion uneven
-constexpr double kSlowest_mps = 0.03;
+// Chosen values: they affect the duration of a move and stops by the zone filter. The zone filter alone keeps
+// the load out of the zones.
+constexpr double kSlowest_mps = 0.03;   // lowest speed over the ground: friction makes a slower motion uneven
 constexpr double kSlowestShare = 0.05;  // lowest speed / reference speed
 constexpr double kBlend_m = 0.01;       // largest distance between a blended corner and its straight legs
 constexpr double kReaction_s = 0.1;     // two ticks, ramp and closing time of the brakes
-// smallest distance of two samples; between them the clearance is smaller by at most half of it
+// Smallest distance of two samples: between them, the clearance is smaller by at most half this distance.
 constexpr double kLeastStep_m = 0.003;
 constexpr double kLargestStep_m = 0.05;  // largest distance of two samples of a leg
 

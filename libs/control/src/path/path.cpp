@@ -106,7 +106,7 @@ std::optional<TimedPath> over(const PathSpace& space, const PerAxis& from, const
     (leg_at(middle_m).is_free ? high_m : low_m) = middle_m;
   }
   std::optional<TimedPath> fastest;
-  for (const double cable_m : {high_m, shortest_m}) {  // with a higher hook, the move is faster
+  for (const double cable_m : {high_m, shortest_m}) {  // a higher hook permits a faster move
     const Leg leg = leg_at(cable_m);
     TimedPath path{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
     path = with_lifts(space, from, to, cable_m, std::move(path));

@@ -11,23 +11,24 @@ namespace crane::control::time_optimal {
 namespace {
 
 constexpr int kMostIterations = 150;
-constexpr double kStartBarrier = 3e-3, kEndBarrier = 2e-5;  // s of T per bound and e-fold of distance
+// Barrier parameter mu, s: objective T per bound and e-fold of the distance from the bound.
+constexpr double kStartBarrier = 3e-3, kEndBarrier = 2e-5;
 constexpr double kBarrierFactor = 0.3;
-constexpr double kEffort = 5e-3;      // s: effort of full volts on both drives during the whole move
-constexpr double kEndSlack = 1e-8;    // regularises the end condition
+constexpr double kEffort = 5e-3;      // s: cost of full volts on both drives during the whole move
+constexpr double kEndSlack = 1e-8;    // inverse weight of the end condition
 constexpr double kToBoundary = 0.99;  // largest share of the distance to a bound in one step
 constexpr double kClosed = 1e-4;      // sum of the absolute gaps of a solution, m, rad and their rates
 constexpr double kMostChange = 0.2;   // largest relative change of T in one step
 constexpr int kMostHalvings = 12;
-constexpr double kDamping = 1e-7;  // s per V^2 of change
-// With a duration slightly above the optimum, fixed, the gaps close quickly.
+constexpr double kDamping = 1e-7;  // regularisation of the Newton step, s/V^2
+// The gaps close quickly with a fixed duration slightly above the optimum.
 constexpr double kRoom = 1.003;        // duration / optimal duration
-constexpr double kRoomBarrier = 1e-3;  // the objective then consists of the barriers only
+constexpr double kRoomBarrier = 1e-3;  // mu with a fixed duration: the objective is the barriers only
 constexpr double kNearOptimum = 5e-3;  // relative change of T below which the duration is fixed
 constexpr double kNearGaps = 0.3;      // sum of the gaps below which the duration is fixed
 constexpr int kMostSearching = 60;     // iterations with free duration
 constexpr int kMostClosing = 20;       // iterations with one fixed duration
-constexpr double kMoreRoom = 1.01;     // factor of the duration when its gaps do not close
+constexpr double kMoreRoom = 1.01;     // factor of the duration when the gaps do not close
 
 /// Gradient and curvature of the barriers of one value.
 struct Barrier {
@@ -48,12 +49,11 @@ double share_within(double value, double change, double low, double high) noexce
   return std::abs(change) > kToBoundary * room ? kToBoundary * room / std::abs(change) : 1;
 }
 
-/// Moves a dual variable by the linearised complementarity (value - bound) z = mu. It stays positive.
+/// Moves a dual variable z by the linearised complementarity (value - bound) z = mu; z stays positive.
 void move_dual(double& dual, double room, double room_change, double mu) noexcept {
   const double change = (mu - dual * room_change) / room - dual;
   const double share = change < -kToBoundary * dual ? kToBoundary * dual / -change : 1;
-  // Keeps the dual variable near the central path, so that one unsuitable step does not falsify the
-  // curvature.
+  // stays near the central path: one unsuitable step must not distort the curvature
   dual = std::clamp(dual + share * change, mu / room / 1e8, mu / room * 1e8);
 }
 

@@ -19,7 +19,8 @@ struct Dual {
   Slope slope = Slope::Zero();
 
   Dual() = default;
-  Dual(double constant) : value{constant} {}  // NOLINT(google-explicit-constructor): a constant is a number
+  Dual(double constant)
+      : value{constant} {}  // NOLINT(google-explicit-constructor): a constant is a Dual with slope 0
   Dual(double v, Slope s) : value{v}, slope{std::move(s)} {}
   static Dual input(double v, int index) { return {v, Slope::Unit(index)}; }
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// Online adaptation: estimates the friction of trolley and slew axis, the payload, the length of the
-/// pendulum and the swing offset while the crane moves, and gives the friction compensation its levels. The
+/// pendulum and the swing offset while the crane moves, and sets the levels of the friction compensation. The
 /// host calls step() once per tick. No allocation, no exception, no clock. Equations and thresholds:
 /// docs/adaptation.md.
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace crane::control {
 
-inline constexpr std::size_t kAdaptedAxes = 2;  ///< trolley, slew: the hoist drive is speed-controlled
+inline constexpr std::size_t kAdaptedAxes = 2;  ///< trolley, slew; the hoist drive is speed-controlled
 
 /// Friction of one direction of motion.
 struct FrictionLevels {
@@ -21,7 +21,7 @@ struct FrictionLevels {
   bool operator==(const FrictionLevels&) const = default;
 };
 
-/// The enumerators are those of crane.idl, in the same order.
+/// Meanings and order of the enumerators are those of crane.idl.
 enum class AdaptationPhase : std::uint8_t { off, frozen, learning };
 enum class AdaptationFreeze : std::uint8_t {
   none,
@@ -37,20 +37,22 @@ enum class AdaptationFreeze : std::uint8_t {
   implausible
 };
 
+/// One direction of motion, since the start.
 struct DirectionReport {
   FrictionLevels estimate, deviation;  ///< deviation: standard deviations
-  FrictionLevels used;                 ///< of the compensation, before its factor
+  FrictionLevels used;                 ///< levels of the compensation, before its factor
   std::uint32_t blocks = 0, break_aways = 0;
 };
 
 struct AxisReport {
   AdaptationPhase phase = AdaptationPhase::off;
   AdaptationFreeze freeze = AdaptationFreeze::none;
-  std::array<DirectionReport, 2> direction;  ///< positive, negative
-  double innovation_v = 0, innovation_std_v = 0;
+  std::array<DirectionReport, 2> direction;       ///< positive, negative
+  double innovation_v = 0, innovation_std_v = 0;  ///< of the last block: unexplained voltage, its deviation
+  /// rms voltage of the last judged move that the levels in use and the previous levels leave unexplained
   double move_residual_v = 0, previous_residual_v = 0;
-  double confidence = 0;
-  std::uint32_t installed = 0, roll_backs = 0, limit_cycles = 0, refused_blocks = 0;
+  double confidence = 0;  ///< accuracy of the Coulomb levels; 0: that of the rig file, 1: exact
+  std::uint32_t installed = 0, roll_backs = 0, limit_cycles = 0, refused_blocks = 0;  ///< since the start
 };
 
 /// A value with its standard deviation.
@@ -65,12 +67,12 @@ struct AdaptationReport {
   std::uint32_t moves = 0;
 };
 
-/// What acts on the crane at a tick.
+/// Measurement of one tick, and the demand that acts from this tick on.
 struct AdaptationInput {
   Measurement measured;
-  Volts demand_v{};  ///< demand of the tick before, whose command acts from this tick on
+  Volts demand_v{};  ///< demand of the previous tick; its command acts from this tick on
   std::array<bool, kAxes> brake_closed{};  ///< true: the brake holds the axis
-  bool consecutive = false;                ///< true: the tick before was processed, and its command acts
+  bool consecutive = false;                ///< true: the previous tick was processed, and its command acts
 };
 
 class Adaptation {

@@ -8,13 +8,13 @@ namespace crane::control {
 
 struct AdaptationSettings {
   bool enabled = false;
-  double friction_share = 0.5;  ///< bound of Coulomb and break-away levels, share of the rig file's
-  double viscous_share = 1.0;   ///< bound of the viscous coefficients, share of the rig file's
+  double friction_share = 0.5;  ///< largest relative change of Coulomb and break-away levels, [0, 0.9]
+  double viscous_share = 1.0;   ///< largest relative change of the viscous coefficients, [0, 1]
 
   bool operator==(const AdaptationSettings&) const = default;
 };
 
-// 0.9: a compensated level keeps its sign and at least a tenth of its size.
+// With at most 0.9, a compensated level keeps its sign and a tenth of its size.
 inline constexpr std::array<fields::Field<AdaptationSettings>, 3> kAdaptationFields{{
     {.key = "enabled",
      .member = &AdaptationSettings::enabled,

@@ -10,13 +10,13 @@
 
 namespace crane::control {
 
-/// Gains in normalised time. The printed gains are within 100; with a gain above 1e5, a swing of one encoder
+/// Gains in normalised time. The printed gains are below 100. With a gain above 1e5, a swing of one encoder
 /// count commands full voltage.
 inline constexpr fields::Range kGains = fields::Range::closed(-1e5, 1e5);
-/// Delays in load periods. The damping of delayed feedback repeats with the period, so that two periods cover
-/// all cases.
+/// Delays in load periods. The damping of delayed feedback is periodic in the delay: two periods cover all
+/// cases.
 inline constexpr fields::Range kDelays = fields::Range::closed(0, 2);
-/// Friction in volts. A separate check compares it with the voltage limit of the drive.
+/// Friction, V. contradictions() compares it with the voltage limit of the drive.
 inline constexpr fields::Range kFrictionVolts = fields::Range::closed(0, 1000);
 
 /// K_d of (3.42), for critical damping.
@@ -172,8 +172,8 @@ struct Contradiction {
   std::string rule;
 };
 [[nodiscard]] std::vector<Contradiction> contradictions(const Design& design);
-/// A drive that its own friction holds at full voltage cannot move, and leaves no voltage for the gain K of
-/// full-state feedback.
+/// Friction that reaches the voltage limit: the drive cannot move, and no voltage remains for the gain K of
+/// the full-state feedback.
 [[nodiscard]] std::vector<Contradiction> contradictions(const DriveFriction& friction, double volt_limit_v);
 
 }  // namespace crane::control

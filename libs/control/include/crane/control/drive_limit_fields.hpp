@@ -12,7 +12,7 @@ using fields::Range;
 
 /// Range of an analog output: +-10 V.
 inline constexpr Range kDriveVolts = Range::above(0, 10);
-/// A brake with a closing time above 1 s cannot stop a crane of this project in time.
+/// Opening and closing times, s. A brake that closes later than after 1 s cannot stop the crane in time.
 inline constexpr Range kBrakeTimes = Range::closed(0, 1);
 
 inline constexpr std::array<fields::Field<DriveLimits>, 9> kDriveLimitFields{{

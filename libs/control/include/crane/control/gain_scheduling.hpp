@@ -14,7 +14,8 @@
 ///   K_phi' = L ((2 a + sqrt(2) w) / (K K_m) - K_x')                                 from (3.22).
 /// Partial-state feedback (3.19) has no K_phi'. The condition K_phi' = 0 determines w/w0 and therefore K.
 /// Full-state feedback has a free K; forward_gains() lowers K for long moves, so that the first command stays
-/// within the drive's voltage. The slew axis has the same form with K_m / (1 + M_r x^2) for K_m, m_r x^2 / (1
+/// within the voltage limit of the drive. The slew axis has the same form with K_m / (1 + M_r x^2) for K_m,
+/// m_r x^2 / (1
 /// + M_r x^2) for m_t, and swing gains divided by x.
 #include <array>
 #include <memory>
@@ -56,8 +57,8 @@ struct TowerGains {
 /// exceed `volt_limit_v`; at most `gain_limit`. @param distance  m or rad. @pre gain_limit, volt_limit_v > 0
 [[nodiscard]] double forward_gain_within(double volt_limit_v, double distance, double gain_limit) noexcept;
 
-/// Voltage that the friction compensation leaves for the control law at the start of a move, V: the drive's
-/// limit minus `factor` times the larger of stiction and Coulomb friction in the direction of motion.
+/// Voltage that the friction compensation leaves for the control law at the start of a move, V: the limit of
+/// the drive minus `factor` times the larger of stiction and Coulomb friction in the direction of motion.
 /// Positive when the design has no problems. @param positive  direction of motion
 [[nodiscard]] double available_control_v(const Design& design, plant::Axis axis, bool positive) noexcept;
 

@@ -53,12 +53,12 @@ struct Reference : std::array<AxisReference, kAxes> {
 /// Output of one law in one tick.
 struct Contribution {
   Volts drive_v{};         ///< V at the input of the motor amplifiers
-  Reference correction{};  ///< tracking adds it to the reference (only with Controller::corrects_reference)
+  Reference correction{};  ///< added to the reference of tracking (only with Controller::corrects_reference)
 };
 
-/// A law with its memory. step() must not allocate or throw. For finite input and a design without problems
-/// its output must be finite. For input that is not finite, the output may be non-finite; the gate of the
-/// supervisor then rejects it.
+/// A law with its memory. step() must not allocate or throw. With finite input and a design without problems,
+/// the output must be finite. With non-finite input, the output may be non-finite: the gate of the supervisor
+/// rejects it.
 class Law {
  public:
   virtual ~Law() = default;
@@ -72,10 +72,10 @@ class Law {
 enum class ReferenceShape {
   step,             ///< the reference jumps to the target
   bang_coast_bang,  ///< constant acceleration, constant speed, constant deceleration
-  zv,               ///< bang_coast_bang through the input shaper of this name (shaper.hpp)
-  zvd,
-  ei,
-  time_optimal  ///< plan of time_optimal.hpp, or bang_coast_bang through zv when there is none
+  zv,               ///< bang_coast_bang through the input shaper ZV (shaper.hpp)
+  zvd,              ///< the same through ZVD
+  ei,               ///< the same through EI
+  time_optimal      ///< plan of time_optimal.hpp, or bang_coast_bang through zv when there is none
 };
 
 /// Friction estimate of one drive in volts (b/K_m, c/K_m) for the compensation (3.1)-(3.5).
@@ -122,7 +122,7 @@ struct Design {
   double fuzzy_gain = -90;               ///< K_V / phi_max of (3.51)
   double fuzzy_point_a = 1.0 / 3;        ///< peak of PS (figure 3.20)
   double fuzzy_point_b = 2.0 / 3;        ///< peak of PM
-  double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws
+  double shortest_cable_length_m = 0.1;  ///< lower limit of the measured length in the laws
   double longest_cable_length_m = 100;   ///< upper limit; determines the memory of the delayed laws
   bool swing_observer = false;           ///< the laws use the estimate of pendulum_observer.hpp
   AdaptationSettings adaptation;         ///< of the friction compensation

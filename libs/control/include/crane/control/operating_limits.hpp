@@ -6,7 +6,7 @@
 namespace crane::control {
 
 struct OperatingLimits {
-  double swing_limit_rad = 0.7;        ///< a swing angle above it stops the crane, rad
+  double swing_limit_rad = 0.7;        ///< a larger swing angle stops the crane, rad
   double stale_after_s = 0.05;         ///< bridge: age of the command that stops the crane, s
   double demand_stale_after_s = 0.03;  ///< supervisor: time without a demand that stops the crane, s
   double idle_lock_s = 60;             ///< time in HOLD without a move that locks the crane, s
@@ -15,7 +15,7 @@ struct OperatingLimits {
   bool operator==(const OperatingLimits&) const = default;
 };
 
-/// No swing can exceed a limit above plant::kSwings.
+/// A limit above plant::kSwings would have no effect.
 inline constexpr fields::Range kSwingLimits = fields::Range::above(0, plant::kSwings.high);
 /// At most one day.
 inline constexpr fields::Range kIdleTimes = fields::Range::above(0, 86400);

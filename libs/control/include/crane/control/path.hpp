@@ -57,7 +57,7 @@ enum class PathOutcome : std::uint8_t {
 /// Least clearance of a target, and of the start and the end of a path, m. The noise of the zone filter at
 /// rest is smaller.
 inline constexpr double kRestGap_m = 0.02;
-/// Least clearance of a path between its first and its last leg, m: the zone filter needs it at the lowest
+/// Least clearance of a path between its first and its last leg, m: that of the zone filter at the lowest
 /// speed of a leg.
 inline constexpr double kPassGap_m = 0.05;
 /// Largest distance of start and target, m: longer than any move of a crane. It bounds the time of a search

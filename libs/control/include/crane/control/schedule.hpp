@@ -9,9 +9,9 @@ namespace crane::control {
 struct Schedule {
   double cable_length_m = 1;      ///< measured L, limited to [shortest, longest] of the design
   double trolley_position_m = 1;  ///< measured x
-  /// 1/x, 1/m, limited near the tower: x / minimum^2 for |x| < minimum_trolley_position_m. The slew drive has
-  /// little effect on a load near the tower, so that the exact gain 1/x tends to infinity. The limited gain
-  /// is continuous and odd in x, at most 1/minimum, and tends to zero with x.
+  /// 1/x in 1/m, limited near the tower, where the slew drive has little effect on the load and 1/x tends to
+  /// infinity: x / minimum^2 for |x| < minimum_trolley_position_m. The limited gain is continuous and odd in
+  /// x, at most 1/minimum, and 0 at x = 0.
   double inverse_position_pm = 1;
   double load_period_s = 1;  ///< T = 2 pi sqrt(L/g)
 };

@@ -2,9 +2,8 @@
 /// Stick mode: an operator commands the speeds of trolley, slew and hoist. The load comes to rest together
 /// with the axes.
 ///
-/// 1. The unshaped speed u of each axis follows the commanded speed (`wanted`).
-///    An input shaper (shaper.hpp) delays parts
-///    of each change of u,
+/// 1. The unshaped speed u of each axis follows the commanded speed (`wanted`). An input shaper (shaper.hpp)
+///    delays parts of each change of u,
 ///      v(t) = sum_i w_i u(t - t_i),   zv: w = 1/2, 1/2; t = 0, T/2   (Singer and Seering 1990)
 ///    The weights w_i are positive and their sum is 1, so that v stays between the smallest and the largest
 ///    u. The law limits each change of u such that |dv/dt| stays below the acceleration limit in every tick.
@@ -16,7 +15,7 @@
 /// 3. The reference of the suspension point P follows from the motion of the load: with the load at
 ///    y = q_r e^(i q_gamma) in the inertial frame,
 ///      P = y + (L / g) y''
-///    This is the equation of a load with a small swing angle. It neglects the acceleration L'' of the cable.
+///    This holds for a small swing angle without acceleration L'' of the cable.
 ///    |P| and arg(P) are the references of trolley and slew. While the jib slews at a constant rate, |P| is
 ///    smaller than the radius r of the load by about r gamma'^2 L / g, and the load stays on its circle.
 ///    Without slewing, and with the longest cable of the session, P = s.
@@ -133,8 +132,8 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,
                StickMemory& memory) noexcept;
 
-/// Volts of trolley and slew with which the nominal crane follows the path at path[1], without the
-/// compensation of friction; 0 with Shaping::none.
+/// Voltages of trolley and slew with which the nominal crane without friction follows the path at path[1]; 0
+/// with Shaping::none.
 [[nodiscard]] Volts feed_forward(const Design& design, const StickLimits& limits,
                                  const StickMemory& memory) noexcept;
 
