@@ -40,7 +40,7 @@ Damping damping_of(const QuasiPolynomial& f, double highest) {
   for (double left = kFirstAbscissa; left >= kLastAbscissa; left *= 2) {
     const auto roots = roots_in(f, left, right, highest);
     damping = damping_of(roots, highest);
-    // A root with Re s < left and Im s <= highest has at least this damping ratio.
+    // Roots with Re s < left and Im s <= highest have at least this damping ratio.
     const bool settled = damping.least <= -left / std::hypot(left, highest);
     if (!roots.empty() && settled && damping.dominant_root != 0.0) break;
   }

@@ -24,8 +24,8 @@ class Census {
   using Key = std::array<std::uint8_t, 16>;
 
   Census(std::uint32_t version, std::string crane) : version_{version}, crane_{std::move(crane)} {}
-  /// Stores the announcement of a participant. Participants without an announcement or of another crane are
-  /// ignored, and so is every participant beyond the first kMost.
+  /// Stores the announcement of a participant. Ignores participants without an announcement, of another
+  /// crane, and beyond the first kMost.
   void note(const Key& participant, std::string_view user_data);
   void forget(const Key& participant);
   /// The participants whose messages have another version.

@@ -14,10 +14,9 @@
 
 namespace crane::bus {
 
-/// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. If no thread waits, the ring is
-/// stored until the next wait. A ring has no effect while `rung_` is set: the woken thread clears `rung_`
-/// before it reads the queues, and therefore finds the sample of this ring. This order requires sequential
-/// consistency.
+/// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. A ring is stored until the next
+/// wait. While `rung_` is set, another ring is unnecessary: the woken thread clears `rung_` before it reads
+/// the queues, and finds both samples. This order requires sequential consistency.
 class Doorbell {
  public:
   /// A sample of `topic` has arrived.

@@ -16,9 +16,8 @@ constexpr std::array<std::string_view, 7> kEventNames{
     "matched",           "unmatched",        "deadline_missed", "liveliness_lost",
     "liveliness_gained", "incompatible_qos", "sample_lost"};
 
-/// The name of the crane is a DDS partition. With these characters it matches the partitions of several
-/// cranes.
-/// @throws Error: a request would move all of them
+/// The name of the crane is a DDS partition. A name with these characters matches several cranes, and a
+/// request would move all of them. @throws Error
 void require_one_crane(const Options& options) {
   if (options.crane.find_first_of("*?[]") != std::string::npos)
     throw Error{"crane = '" + options.crane +

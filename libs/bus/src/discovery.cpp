@@ -29,7 +29,7 @@ bool has_multicast(const std::string& address) {
   return found;
 }
 
-/// Binds a UDP port for a moment. @param port  0: any. @return the bound port; 0: it is not free
+/// Binds and releases a UDP port. @param port  0: any. @return the bound port; 0: the port is not free
 std::uint32_t bound_port(const std::string& address, std::uint32_t port) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (socket < 0) return 0;

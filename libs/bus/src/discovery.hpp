@@ -11,27 +11,27 @@
 namespace crane::bus {
 
 /// @return true with a Discovery Server, with explicit peers, and when no interface has multicast (the usual
-/// Linux loop-back). Every
-///   participant then contacts the known ports of its own host and of the peers
+///   Linux loop-back). Every participant then contacts the known ports of its own host and of the peers
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
 
 /// Largest number of participants of one domain on one host with unicast discovery, for both vendors:
 /// discovery contacts the ports of the participant numbers below this limit. The ports of higher numbers
 /// belong to the next domain. All participants of a process over Cyclone DDS share one number.
 inline constexpr std::uint32_t kMostParticipants = most_participants();
-/// True for operator tools and monitors. When no number is free, they join without a number, with any free
-/// ports: they discover all participants with a number, but not each other. Otherwise any program that binds
-/// the ports of all numbers could prevent a stop.
+/// True for operator tools and monitors: when no number is free, they join without a number, with any free
+/// ports. They then discover all participants with a number, but not each other. Without this rule, a program
+/// that binds the ports of all numbers could prevent a stop.
 [[nodiscard]] bool joins_without_number(const Options& options);
-/// @return a UDP port outside the ports of the domains that was free on the first own interface. Another
-/// process may take it at the next moment.
+/// @return a UDP port outside the ports of the domains that was free on the first own interface; another
+///   process may bind it later
 [[nodiscard]] std::uint32_t any_free_port(const Options& options);
 /// @return message with cause and remedy for the case that no participant number is free
 [[nodiscard]] std::string no_free_number(const Options& options);
 /// @return message for the case that the middleware does not state why it could not join
 [[nodiscard]] std::string cannot_join(const Options& options);
-/// @return true when both ports of the participant number are free on all own interfaces. Another process may
-/// take them at the next moment.
+/// @return true when both ports of the participant number were free on all own interfaces; another process
+/// may
+///   bind them later
 [[nodiscard]] bool has_free_ports(const Options& options, std::uint32_t number);
 
 /// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface

@@ -23,8 +23,8 @@ bool take_next(detail::Reader& reader, const topics::Description& topic, std::ui
   return taken;
 }
 
-/// Any program may write any text. Every reader (terminal, page, recording, log) gets only visible text, and
-/// the CRC of this text.
+/// Any program may write any text: replaces invisible characters for every reader (terminal, page, recording,
+/// log), and updates the CRC.
 void make_printable(const topics::Description& topic, std::uint32_t messages_version, void* sample) {
   if (!CdrCodec::of(*topic.descriptor).make_texts_printable(sample)) return;
   const auto header = *static_cast<const msg::Header*>(sample);

@@ -40,8 +40,8 @@ std::string file_text(const std::filesystem::path& file) {
   if (!stream || std::filesystem::is_directory(file)) {
     throw ConfigurationError({file.string() + ":1: file: cannot be read"});
   }
-  // Reads one byte more than permitted, so that the reader of TOML refuses a longer text. The limit also ends
-  // the reading of a device that never ends.
+  // Reads one byte more than permitted, so that the reader of TOML refuses a longer text. The limit also
+  // bounds the reading of an endless device.
   std::string text(kLongestToml_bytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));

@@ -78,8 +78,7 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
-/// This function is not inlined, because GCC 12 would otherwise warn about reads beyond the end of small
-/// sections.
+/// Not inlined: GCC 12 would warn about reads beyond the end of small sections.
 template <class Section, std::size_t N>
 [[gnu::noinline]] std::string rows(const std::array<Field<Section>, N>& fields, const Section& initial) {
   std::string text;

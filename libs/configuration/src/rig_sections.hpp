@@ -23,7 +23,7 @@ void check_unique(TomlTable& table, std::string_view key, int channel, std::vect
 /// Reports a value outside the range. NaN is ignored, because the reader has reported it.
 void check_range(TomlTable& table, std::string_view key, double value, const Range& range);
 
-// In the order of the calls: later sections are checked against earlier ones.
+// Order of the calls: later sections are checked against earlier ones.
 void read_drives(TomlTable& root, Rig& rig);
 void read_encoders(TomlTable& root, Rig& rig);
 void read_wiring(TomlTable& root, Rig& rig);

@@ -49,7 +49,7 @@ void TomlTable::Document::report(const toml::node* node, const Place& place, con
 
 void TomlTable::Document::report_unknown_and_missing(Place& place) {
   if (place.table == nullptr) return;
-  // More keys than a table can have: the search for the nearest names of a huge file must not take seconds.
+  // More than the keys of a table: the search for similar names in a huge file must not take seconds.
   constexpr int kMostHints = 100;
   int hints = 0;
   std::set<std::string> meant;

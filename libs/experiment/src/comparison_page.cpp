@@ -12,8 +12,7 @@ namespace {
 using Value = std::function<double(const Sample&)>;
 
 using fields::kDegPerRad;
-// Ticks between drawn points: finer than the resolution of a screen, and half the size of a page with all
-// ticks.
+// Ticks between drawn points: finer than the resolution of a screen; halves the size of the page.
 constexpr std::size_t kDrawEvery = 2;
 constexpr int kReferenceColor = 8;  // grey
 

@@ -243,8 +243,8 @@ Rig started_by(Rig rig, const Scenario& scenario) {
   rig.start.swing_radial_rad = scenario.swing_radial_rad;
   rig.start.swing_tangential_rad = scenario.swing_tangential_rad;
   rig.start.cable_length_offset_m += scenario.cable_length_offset_m;
-  // With a larger error of the cable length, the check of the swing encoders would stop the crane. The model
-  // checks are then switched off.
+  // The check of the swing encoders would stop a crane with a larger error of the cable length: switches the
+  // model checks off.
   constexpr double kPlausible = 0.55;  // kCableTolerance of crane/supervisor/pendulum.hpp
   if (std::abs(scenario.cable_length_offset_m) > kPlausible * rig.start.position[plant::kHoist])
     rig.limits.model_checks = false;

@@ -16,8 +16,7 @@ std::string shown(double value) {
 
 bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
-  // Because of the negation, a bound that is NaN permits every value. The NaN bound itself is reported
-  // elsewhere.
+  // A NaN bound permits every value; the check of the bound reports it.
   const bool too_low = low_included ? value < low : value <= low;
   const bool too_high = high_included ? value > high : value >= high;
   return !too_low && !too_high;

@@ -19,7 +19,7 @@ namespace {
 
 /// Longest file that read_csv() takes: ten million rows of eight columns. The limit bounds the memory.
 constexpr std::size_t kLongestCsv_bytes = std::size_t{1} << 30U;
-/// Longest part of a name or cell in a message. A cell can be very long: a file without commas is one cell.
+/// Longest part of a name or cell in a message: in a file without commas, a whole line is one cell.
 constexpr std::size_t kShown = 60;
 
 std::string_view trimmed(std::string_view text) {

@@ -39,7 +39,7 @@ struct MessageStream::State {
   std::vector<Pending> pending;           ///< sorted
   std::size_t next = 0;                   ///< in `pending`
 
-  /// A chunk that is not loaded yet may have earlier messages.
+  /// True when no chunk that is not loaded yet can have an earlier message.
   [[nodiscard]] bool ready() const {
     return next < pending.size() &&
            (loaded == chunks.size() || pending[next].message.log_time_ns < chunks[loaded]->first_ns);

@@ -130,7 +130,7 @@ Cell number(double value, int digits, Tone tone) { return {decimals(value, digit
 std::string to_html(const Page& page) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      // This policy prevents every load from a network, whatever the texts contain.
+      // This policy prevents every load from a network, for any content of the texts.
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
       "script-src 'unsafe-inline'; img-src data:\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +

@@ -59,9 +59,8 @@ void InProcessStack::arrived(Entry& entry) {
 bool InProcessStack::pump() {
   const auto begin_ns = monotonic_ns();
   bool anything = false;
-  // The first pass polls all components, the next passes only those with new samples. When such a pass
-  // processes nothing, one more pass polls all components, because a component may store samples of later
-  // ticks or requests that are due.
+  // The first pass polls all components, the next passes only those with new samples. When a pass processes
+  // nothing, another pass polls all components, which may store samples of later ticks or due requests.
   for (bool all = true, progress = true; all || progress; all = !all && !progress) {
     progress = false;
     {

@@ -59,10 +59,9 @@ void Turn::wait(std::int64_t longest_ns) {
   std::unique_lock lock{mutex_};
   const auto now_ns = monotonic_ns_();
   sleeps_until_ns_ = std::min(wake_at_ns_, now_ns + longest_ns);
-  // After the first input of a tick, the component requests the time until which it waits for the other
-  // inputs. If the main thread slept longer, each tick would have to wake it to shorten its sleep, although
-  // all inputs usually arrive before this time. The main thread therefore wakes by itself, a tenth of a
-  // period before the time that it expects: one period after the last one.
+  // After the first input of a tick, the component requests the time at which its wait for the other inputs
+  // ends. If the main thread slept longer, each tick would wake it only to shorten its sleep. Therefore it
+  // wakes a tenth of a period before the expected time: one period after the last one.
   const auto expected_ns = due_ns_ + period_ns_ - period_ns_ / 10;
   if (wake_at_ns_ == kNever && expected_ns > now_ns)
     sleeps_until_ns_ = std::min(sleeps_until_ns_, expected_ns);

@@ -7,8 +7,8 @@
 namespace crane::security {
 
 /// Refuses unauthenticated participants, encrypts discovery, liveliness and every topic, and requires a
-/// permission for every topic. This is the strongest set of protections that works between all four pairs of
-/// the two vendors.
+/// permission for every topic: the strongest set of protections that all four pairs of the two vendors
+/// support.
 [[nodiscard]] std::string governance_document();
 [[nodiscard]] std::string permissions_document(const Role& role, const std::string& subject,
                                                const Validity& validity);

@@ -56,8 +56,8 @@ std::string configuration(const Options& options, bool numbered = true) {
   xml += "</HeartbeatInterval><NackDelay>";
   xml += network ? "0s" : "1ms";
   xml += "</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
-  // A receive thread with one socket ends only when a packet arrives. When the interface has vanished, none
-  // arrives, and the program would never end. One thread for all sockets is woken by a pipe.
+  // A receive thread with one socket ends only when a packet arrives: without the interface, the program
+  // would never end. A pipe wakes the one thread of all sockets.
   if (network) xml += "<MultipleReceiveThreads>false</MultipleReceiveThreads>";
   xml +=
       "<GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>";  // Fast DDS identifies instances by it

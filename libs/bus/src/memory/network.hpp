@@ -17,7 +17,7 @@ class AtomicCount {
  public:
   AtomicCount() = default;
   AtomicCount(AtomicCount&& other) noexcept
-      : value_{other.value_.load()} {}  ///< only before the endpoint is registered
+      : value_{other.value_.load()} {}  ///< @pre the endpoint is not registered
   AtomicCount& operator=(std::size_t value) {
     value_ = value;
     return *this;

@@ -1,7 +1,7 @@
 #pragma once
-/// Names of all protections of supervisor, bridge and bus. A build with CRANE_MUTATION can disable one of
-/// them; tests/campaign then shows that a fault violates an invariant without it. In every other build
-/// `enabled` is the constant true, and the compiler removes the check.
+/// Names of all protections of supervisor, bridge and bus. A build with CRANE_MUTATION can disable one
+/// protection; tests/campaign then shows that a fault violates an invariant without this protection. In every
+/// other build, `enabled` is the constant true, and the compiler removes the check.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -8,9 +8,9 @@
 
 namespace crane::analysis {
 
-/// A loop with delay has infinite chains of roots. With increasing |s| their damping ratio tends to zero,
-/// although their decay rate increases. Therefore "all roots" means the roots with Im s up to this limit:
-/// eight load frequencies.
+/// A loop with delay has infinite chains of roots, whose damping ratio tends to zero and whose decay rate
+/// increases with |s|. "All roots" are therefore the roots with Im s up to this limit, eight load
+/// frequencies, in radians per load period.
 inline constexpr double kHighest = 50.26548245743669;  // 16 pi
 
 struct Damping {

@@ -23,8 +23,8 @@ struct GainSample {
 };
 using GainCurve = std::vector<GainSample>;
 
-// `points` >= 2: number of equally spaced points of a curve
 /// Figure 3.5: gains over the cable length, 0.5 to 5 m.
+/// @param points  number of equally spaced points of the curve, >= 2; also below
 [[nodiscard]] GainCurve gains_over_cable_length(const plant::Parameters& crane, int points);
 /// Figure 3.6: gains over the mass ratio m_t, 0 to 3, at the given cable length.
 [[nodiscard]] GainCurve gains_over_mass_ratio(const plant::Parameters& crane, double cable_length_m,

@@ -1,8 +1,8 @@
 #pragma once
 /// All roots of a quasi-polynomial in a region of the complex plane. The argument principle gives the number
 /// of roots in a box. The box is divided until Newton's method has found this number of different roots. The
-/// steps along the edge of a box are so small that, by Taylor's theorem, the change of f is below |f|.
-/// Therefore the count is exact.
+/// count is exact: along the edge of a box, each step is so small that, by Taylor's theorem, f changes by
+/// less than |f|.
 #include "crane/analysis/quasi_polynomial.hpp"
 
 namespace crane::analysis {

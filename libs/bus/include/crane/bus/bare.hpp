@@ -1,6 +1,6 @@
 #pragma once
-/// One writer and one reader directly on a DDS implementation: no checksum, no check of the writer, no
-/// counts. `crane bench tick` measures their latency, the lower bound for bus.hpp. A crane uses bus.hpp.
+/// One writer and one reader directly on a DDS implementation, without checksum, check of the writer and
+/// counts. `crane bench tick` measures their latency: the lower bound for bus.hpp, which a crane uses.
 #include <chrono>
 #include <memory>
 

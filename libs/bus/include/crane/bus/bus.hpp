@@ -40,7 +40,7 @@ struct OtherVersion {
 [[nodiscard]] std::string refusal(const OtherVersion& other,
                                   std::uint32_t own_version = crane_MESSAGES_VERSION);
 
-/// A sample of the topic with this name has arrived.
+/// Called when a sample of `topic` has arrived.
 using ArrivalHandler = std::function<void(std::string_view topic)>;
 
 /// One DDS participant in one domain, or a share of a participant (share()). The calls of publish, take and
@@ -76,13 +76,13 @@ class Bus {
   /// a sample has arrived since the last call. @return true when a sample has arrived since the last call
   bool wait(std::chrono::nanoseconds timeout);
 
-  /// From now on, `on_arrival` is called whenever a sample of `topic` has arrived at a subscriber of this
-  /// bus, and wait() sleeps until its timeout. The calling thread is a receive thread of the vendor, or a
-  /// thread of this process that publishes. The calling thread may hold locks of the vendor. Several
-  /// threads may call at the same time: `on_arrival` must ensure that its calls of take and publish do not
-  /// overlap (crane/runtime/turn.hpp). `on_arrival` must not wait for another thread. It may publish other
-  /// topics, but not `topic`: Cyclone DDS runs one callback of a reader at a time, and the callback of the
-  /// new sample would wait for the present one forever. Call while no subscriber of this bus exists.
+  /// From now on, the bus calls `on_arrival` for each sample that arrives at one of its subscribers, and
+  /// wait() sleeps until its timeout. The caller is a receive thread of the vendor, which may hold locks, or
+  /// a thread of this process that publishes. Several threads may call at the same time: `on_arrival` must
+  /// ensure that its calls of take and publish do not overlap (crane/runtime/turn.hpp), and must not wait for
+  /// another thread. `on_arrival` may publish other topics, but not `topic`: Cyclone DDS runs one callback of
+  /// a reader at a time, and the callback of the new sample would wait for the present one forever.
+  /// @pre no subscriber of this bus exists
   void call_on_arrival(ArrivalHandler on_arrival);
 
   /// Participants of this crane whose messages have another version. This bus drops all their samples.

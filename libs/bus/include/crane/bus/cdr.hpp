@@ -1,7 +1,6 @@
 #pragma once
-/// Encodes and decodes the C struct of a topic as plain CDR (XCDR1, little endian). The codec reads the
-/// op-codes that idlc 0.10 writes to the topic descriptor. Fast DDS, the recordings, the CRC and the tools
-/// use this codec.
+/// Encodes and decodes the C struct of a topic as plain CDR (XCDR1, little endian), for Fast DDS, recordings,
+/// CRC and tools. The codec reads the op-codes that idlc 0.10 writes to the topic descriptor.
 #include <cstdint>
 #include <span>
 #include <vector>

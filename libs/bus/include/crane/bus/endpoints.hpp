@@ -17,7 +17,7 @@ namespace crane::bus {
 
 /// Identifies the DDS writer of a sample: equal for all samples of one writer, different for any two writers.
 /// Valid within this process. Any sender can copy a Header. Without keys, a sender can also copy the GUID of
-/// a writer: it chooses the same GUID prefix, or forges RTPS packets (docs/security.md).
+/// a writer by choosing its GUID prefix or by forging RTPS packets (docs/security.md).
 using WriterId = std::array<std::uint8_t, 16>;
 
 /// Identifies the DDS participant of a writer: equal for all writers of one participant, which a Bus and its
@@ -53,9 +53,9 @@ class UntypedPublisher {
   UntypedPublisher& operator=(UntypedPublisher&&) noexcept;
 
   [[nodiscard]] bool assert_liveliness();
-  /// Waits until all matched readers have acknowledged all samples of this publisher. Each reader can then
-  /// take them. A reader also acknowledges samples that were sent before it discovered this publisher, but
-  /// does not receive them. @return false when a reader has not acknowledged within `timeout`
+  /// Waits until all matched readers have acknowledged all samples of this publisher and can take them. A
+  /// reader also acknowledges samples that were sent before it discovered this publisher, without receiving
+  /// them. @return false when a reader has not acknowledged within `timeout`
   [[nodiscard]] bool wait_until_received(std::chrono::nanoseconds timeout);
   /// Number of matched readers.
   [[nodiscard]] int matched() const;

@@ -1,6 +1,6 @@
 #pragma once
-/// Readers and writers of other participants, as discovery announces them, and the reasons for which a writer
-/// and a reader exchange no samples.
+/// Readers and writers of other participants, as discovery announces them, and the reasons why a writer and a
+/// reader do not match.
 #include <chrono>
 #include <string>
 #include <string_view>

@@ -5,8 +5,8 @@
 /// Without keys, every program on the bus can send packets in the name of any DDS writer. Therefore each
 /// process of the loop enters the digest of each sample of a loop topic in the ledger before it sends the
 /// sample. Subscriber::take() returns every intact sample; SampleInfo::entered states whether its digest is
-/// in the ledger. The loop (runtime::LoopReader) refuses a sample whose digest is not in the ledger: the
-/// sender of an accepted sample has access to the ledger, which no packet can imitate. The digest is
+/// in the ledger. The loop (runtime::LoopReader) refuses a sample whose digest is not in the ledger: only a
+/// process with access to the ledger can send an accepted sample. The digest is
 /// SipHash-2-4 of all fields, the topic and the version of the messages, with a random key that only the
 /// ledger contains.
 ///
@@ -38,8 +38,8 @@ class Ledger {
 
   /// Enters a sample, unless it is empty. Wait-free; several processes may enter at the same time.
   void enter(std::span<const std::uint8_t> sample) noexcept;
-  /// @return true when the sample has been entered and not yet been replaced. The ledger holds about 110,000
-  /// samples: about two minutes of a loop with 100 ticks per second and eight samples per tick
+  /// @return true when the sample was entered and is not replaced yet. The ledger holds about 110,000
+  /// samples: two minutes of a loop with 100 ticks per second and eight samples per tick
   [[nodiscard]] bool contains(std::span<const std::uint8_t> sample) const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// For programs that need only the newest sample of a topic.
+/// Newest sample of a topic.
 #include <optional>
 #include <utility>
 

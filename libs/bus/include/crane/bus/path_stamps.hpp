@@ -17,15 +17,15 @@ struct PathRecord {
   std::uint64_t topic = 0;  ///< of the published sample: index in topics::kAll
   std::uint64_t tick = 0;   ///< Header.tick of the published sample
   std::int64_t sample_time_ns = 0;
-  /// By topic: the vendor's thread has delivered the newest sample to its reader.
+  /// By topic: the thread of the vendor has delivered the newest sample to its reader.
   std::array<std::int64_t, topics::kAll.size()> arrived_ns{};
   std::int64_t polled_ns = 0;     ///< the loop began the poll that published the sample
-  std::int64_t taking_ns = 0;     ///< duration: the vendor's take, all samples of the poll
+  std::int64_t taking_ns = 0;     ///< duration: take() of the vendor, all samples of the poll
   std::int64_t checking_ns = 0;   ///< duration: CRC checks, all samples of the poll
   std::int64_t joined_ns = 0;     ///< the inputs of the tick, or of the board, were complete
   std::int64_t published_ns = 0;  ///< publish() was called
   std::int64_t sealed_ns = 0;     ///< the sample had its CRC
-  std::int64_t written_ns = 0;    ///< the vendor's write has returned
+  std::int64_t written_ns = 0;    ///< write() of the vendor has returned
 };
 
 /// @return index of the topic in topics::kAll
@@ -41,7 +41,7 @@ class PathStamps {
   PathStamps& operator=(const PathStamps&) = delete;
 
   [[nodiscard]] static std::int64_t now_ns();
-  /// The vendor's thread has delivered a sample. May be called by any thread.
+  /// Call when the vendor has delivered a sample. Any thread may call this function.
   void arrived(std::string_view topic);
   void polled(std::int64_t time_ns);
   void took(std::int64_t begin_ns, std::int64_t taken_ns, std::int64_t checked_ns);

@@ -17,6 +17,7 @@ void seal(const topics::Description& topic, void* sample, crane_Source source, s
 /// messages. Valid until the next call in this thread; empty when the sample cannot be encoded.
 [[nodiscard]] std::span<const std::uint8_t> ledger_entry(const topics::Description& topic, const void* sample,
                                                          std::uint32_t messages_version);
+/// @return true when the CRC of the sample is correct for this topic and version
 [[nodiscard]] bool intact(const topics::Description& topic, const void* sample,
                           std::uint32_t messages_version = crane_MESSAGES_VERSION);
 

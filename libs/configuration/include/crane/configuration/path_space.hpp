@@ -1,6 +1,6 @@
 #pragma once
-/// Converts a rig to the input of the search for paths. Supervisor, planner and `crane zone path` use this
-/// function, so that all of them search in the same space.
+/// Converts a rig to the input of the search for paths: supervisor, planner and `crane zone path` search in
+/// the same space.
 #include "crane/configuration/rig.hpp"
 #include "crane/control/path.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// One rig file describes one crane: geometry, masses, drives, sensors, board, limits, controller and model
 /// terms. rig_fields.hpp, plant/parameter_fields.hpp and control/*_fields.hpp state ranges and meanings;
-/// docs/rig_file.md prints them. deploy/rigs/virginia_tech_tower.toml is the dissertation's rig and the
-/// annotated example.
+/// docs/rig_file.md prints them. deploy/rigs/virginia_tech_tower.toml is the rig of the
+/// dissertation and the annotated example.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -25,8 +25,8 @@ enum class RigKind { tower, gantry, drive_axis, pendulum };
 /// Incremental encoder of one coordinate.
 struct Encoder {
   int channel = 0;  ///< board counter channel
-  double counts_per_unit =
-      0;         ///< counts per m or rad of the coordinate (quadrature and gear included); 0: no such encoder
+  /// Counts per m or rad of the coordinate, including quadrature and gear; 0: no such encoder.
+  double counts_per_unit = 0;
   int sign = 1;  ///< +1 or -1: direction of counting
   /// Swing only: angle that the encoder shows while the load hangs at rest; the bridge subtracts it.
   double rest_angle_rad = 0;
@@ -65,9 +65,8 @@ struct DriveLines {
   bool operator==(const DriveLines&) const = default;
 };
 
-/// Lines of the board and the signals that are connected to them. Encoder and Drive have counters and analog
-/// outputs. Inputs are contacts to ground that are closed in normal operation, so that a broken wire is
-/// detected.
+/// Lines of the board and their signals; Encoder and Drive have the counters and analog outputs. Inputs are
+/// normally closed contacts to ground: a broken wire reads as an open contact.
 struct Wiring {
   int base_address = 0x200;             ///< servo_to_go: 0x200 + 0x20 n
   std::string device = "/dev/comedi0";  ///< comedi: device file. Subdevices: those of an s626
@@ -82,9 +81,8 @@ struct Wiring {
 };
 
 struct Start {
-  std::array<double, plant::kAxes> position{
-      0.25, 0,
-      1.0};  ///< initial position of the simulated plant and of axes with Zero::start: m, rad, m of cable
+  /// Initial position of the simulated plant and of axes with Zero::start: m, rad, m of cable.
+  std::array<double, plant::kAxes> position{0.25, 0, 1.0};
   double swing_radial_rad = 0, swing_tangential_rad = 0;
   double cable_length_offset_m = 0;  ///< true minus measured cable length
 
@@ -120,8 +118,7 @@ struct Rig {
   Wiring wiring;
   std::string controller = "gain_scheduling_partial";
   Planning planning;
-  control::Design
-      design;  ///< of the controllers; design.crane equals plant unless [controller.believes] differs
+  control::Design design;  ///< of the controllers; design.crane equals plant without [controller.believes]
 
   /// True when a load can hang from this kind of rig, even if its mass is 0.
   [[nodiscard]] bool carries_load() const { return kind != RigKind::drive_axis; }

@@ -26,7 +26,7 @@ using fields::Presence;
 using fields::Quantity;
 using fields::Range;
 
-/// Limits of a trajectory. Within this range all its times are finite and positive.
+/// Limits of a trajectory: within this range, all times of a trajectory are finite and positive.
 inline constexpr Range kPlanned = Range::closed(1e-6, 1e6);
 
 [[nodiscard]] std::vector<std::string> board_names();

@@ -20,8 +20,8 @@ using fields::Range;
 /// One table of a TOML document: a cheap handle; copies refer to the same table. A table that the file does
 /// not have is absent: its getters return their defaults and report no missing keys.
 ///
-/// Every getter marks its key as known. A key with a default is optional, a key without one is required. For
-/// a value that breaks its rule, the getter notes a problem and returns NaN (number), the default or INT_MIN
+/// Every getter marks its key as known. A key with a default is optional; any other key is required. When a
+/// value breaks its rule, the getter notes a problem and returns NaN (number), the default or INT_MIN
 /// (integer), or an empty text. Comparisons with NaN are false, so that a check between two values, such as
 /// `if (low >= high)`, adds no second problem. finish() throws before the value is used.
 class TomlTable {

@@ -1,7 +1,6 @@
 #pragma once
 /// Adds and removes zones in the text of a rig file. All other text, including comments, does not change. The
-/// functions read the new text again and return it only if it describes the same rig with only this zone
-/// changed.
+/// functions parse the new text, and return it only if the rigs differ in this zone only.
 #include <string>
 
 #include "crane/configuration/rig.hpp"

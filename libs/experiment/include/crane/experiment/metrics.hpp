@@ -48,9 +48,8 @@ inline constexpr double kNominalTrolleyMove_m = 0.75;
 inline constexpr double kNominalSlewMove_rad = 1.5707963267948966;
 /// Limit for both swing angles: 0.5 degrees.
 inline constexpr double kSettlingSwing_rad = 0.008726646259971648;
-/// A run counts as settled only when it stays settled for this time until its end. The value is half the
-/// swing period with 1 m of cable: a swinging load that passes the middle at the end of the run does not
-/// count as settled.
+/// Shortest time at the end of a settled run for which it must stay settled: half the swing period with 1 m
+/// of cable, so that a swinging load that passes its centre at the end of the run does not count as settled.
 inline constexpr double kSettlingHold_s = 1;
 /// Time at the end of the run over which the residual swing is computed.
 inline constexpr double kResidualWindow_s = 4;

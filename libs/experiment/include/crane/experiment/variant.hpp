@@ -1,6 +1,6 @@
 #pragma once
-/// Variants are changes of a rig for the comparison of controllers. Variants of cable and load change the
-/// simulated crane only, not the measurements and parameters of the controllers.
+/// Variants are changes of a rig for the comparison of controllers. Variants of cable and load change only
+/// the simulated crane, not the measurements and parameters of the controllers.
 #include <string>
 #include <string_view>
 #include <vector>

@@ -6,8 +6,8 @@
 /// Operands: numbers with units (5deg, 20 ms, 0.1 m/s), names, expressions in parentheses, abs(x), min(x,
 /// ...), max(x, ...), rising(condition). Values are in SI units. Both operands of a comparison, sum or
 /// difference have the same dimension; a number without unit has the SI unit of the other operand. rising(c)
-/// is true in the row in which c becomes true. It is unknown while c is unknown. If c is true in the first
-/// row in which it is known, rising(c) is unknown in that row, too.
+/// is true in the row in which c becomes true. rising(c) is unknown while c is unknown, and in the first
+/// known row of c if c is true there.
 ///
 /// A missing value is NaN. A comparison with a missing value is unknown. `and`, `or`, `not` follow Kleene's
 /// logic: (false and unknown) is false, (true or unknown) is true. A quotient, product, sum or difference

@@ -13,7 +13,7 @@
 
 namespace crane::recording {
 
-/// One field of a topic. The elements of arrays, also of arrays of structures, are one column.
+/// One field of a topic; all elements of an array, also of an array of structures, are one column.
 struct Column {
   std::string name;  ///< "applied_v", "axis.position"
   Kind kind = Kind::float64;

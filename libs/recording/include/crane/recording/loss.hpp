@@ -16,9 +16,8 @@ enum class LossCause : std::uint8_t {
   dds_lost,      ///< DDS reported the samples as lost (SAMPLE_LOST)
   wrong_crc,     ///< the recorder rejected the samples: their CRC-32C was wrong
   file_removed,  ///< the file that contained the samples was deleted while the recorder wrote it
-  tick_gap  ///< ticks without a sample between two samples of a writer; no other cause explains them: the
-            ///< recorder paused until its reader overwrote samples, or the loop was late and skipped the
-            ///< ticks
+  tick_gap       ///< ticks are missing between two samples of a writer without any other cause: the recorder
+                 ///< paused until its reader overwrote samples, or the loop was late and skipped the ticks
 };
 [[nodiscard]] std::string_view to_string(LossCause cause);
 

@@ -92,8 +92,8 @@ class McapReader {
   [[nodiscard]] const SchemaRecord* find_schema(std::uint16_t id) const;  ///< nullptr: none
   [[nodiscard]] std::vector<MetadataRecord> metadata();                   ///< in file order
   [[nodiscard]] std::vector<AttachmentRecord> attachments();
-  [[nodiscard]] bool indexed()
-      const;  ///< true: every file was closed correctly, with an intact index and footer
+  /// True when every file was closed correctly, with an intact index and footer.
+  [[nodiscard]] bool indexed() const;
   [[nodiscard]] std::int64_t first_time_ns() const;  ///< first log time of all chunks; 0 without chunks
   [[nodiscard]] std::int64_t last_time_ns() const;   ///< last log time of all chunks; 0 without chunks
 

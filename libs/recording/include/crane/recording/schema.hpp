@@ -36,8 +36,8 @@ class ColumnTable;
 struct LeafType {
   std::string name;  ///< "axis[1].position"
   Kind kind = Kind::float64;
-  /// "m", "rad/s"; empty: none. The comment of the field declares it where it depends on an index
-  /// (idl/README.md); otherwise the name of the field ends in it.
+  /// "m", "rad/s"; empty: none. The name of the field ends in the unit; if the unit depends on an index, the
+  /// comment of the field declares it (idl/README.md).
   std::string unit;
   std::string enumeration;               ///< name of its type; empty for other kinds
   std::vector<std::string> enumerators;  ///< by number; empty for other kinds

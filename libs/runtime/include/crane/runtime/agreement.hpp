@@ -1,10 +1,9 @@
 #pragma once
-/// All processes of the loop must have the same rig file and the same controller: limits, calibration, zones
-/// and gains belong together. Each sample of the loop states the configuration of its process. A process that
-/// reads a sample with another configuration states 0, and so does every process that reads this 0. The
-/// supervisor therefore detects a difference anywhere in the loop. Only the one writer of a loop topic can
-/// state the configuration of its process. Statuses on crane/node have no effect, because every process may
-/// write this topic.
+/// All processes of the loop must have the same rig file and the same controller, because limits,
+/// calibration, zones and gains depend on each other. Each sample of the loop states the configuration of its
+/// process. A process that reads another configuration, or 0, states 0: the supervisor detects a difference
+/// anywhere in the loop. Only the writer of a loop topic can state the configuration of its process. Statuses
+/// on crane/node have no effect, because every process may write this topic.
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,8 +1,7 @@
 #pragma once
 /// Runs all components of a control loop in one process in real time. One thread polls the components. The
-/// components share one DDS participant; each has its own writers, readers, source and start-up number.
-/// Therefore other programs and the components themselves receive the same samples as with separate
-/// processes.
+/// components share one DDS participant; each has its own writers, readers, source and start-up number. The
+/// samples are the same as with separate processes.
 #include <string_view>
 #include <vector>
 

@@ -10,9 +10,9 @@ inline constexpr std::size_t kMostGrowth_bytes = std::size_t{512} << 20U;
 
 /// From now on this process can allocate at most kMostGrowth_bytes. Further allocations fail, and the process
 /// ends by an exception or by SIGABRT; its silence then stops the crane. A lower limit of the administrator
-/// remains in force. Reason: every participant, writer and instance on the bus occupies memory of each
-/// process that discovers it. Without a limit, a program without keys could fill the memory of the computer
-/// while the crane holds its position with open brakes.
+/// remains in force. Every participant, writer and instance on the bus occupies memory of each process that
+/// discovers it: without a limit, a program without keys could fill the memory of the computer while the
+/// crane holds its position with open brakes.
 /// @throws std::system_error
 void end_when_growing();
 

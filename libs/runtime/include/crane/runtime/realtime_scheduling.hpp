@@ -13,13 +13,13 @@ class RealtimeScheduling {
   RealtimeScheduling() = default;
   RealtimeScheduling(const RealtimeScheduling&) = delete;
   RealtimeScheduling& operator=(const RealtimeScheduling&) = delete;
-  /// Returns all threads to ordinary scheduling. The system frees the memory of a process with the priority
-  /// of that process, and the locked memory of six processes occupies two processors for 30 ms. With the
-  /// priority of a loop, this would stop another crane on the same computer.
+  /// Returns all threads to ordinary scheduling. The kernel frees the memory of an ending process with the
+  /// priority of that process: freeing the locked memory of six processes occupies two processors for 30 ms.
+  /// With real-time priority, this would stop another crane on the same computer.
   ~RealtimeScheduling();
 
-  /// Locks the memory and requests SCHED_FIFO for every thread of this process: the receive threads of the
-  /// bus need the same priority as the loop. Call this last: start-up work must not preempt running
+  /// Locks the memory and requests SCHED_FIFO for every thread of this process, because the receive threads
+  /// of the bus need the priority of the loop. Call this last: start-up work must not preempt running
   /// processes.
   /// @param priority  1 to 99; 0 or less: does nothing
   [[nodiscard]] Answer enter(int priority);

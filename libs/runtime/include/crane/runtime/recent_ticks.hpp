@@ -1,6 +1,6 @@
 #pragma once
-/// Headers of the newest ticks. Tick numbers begin at 0 after each start. In real time, sample times do not
-/// repeat: a sample with both numbers of a recent tick was made in this run.
+/// Headers of the newest ticks. Tick numbers begin at 0 after each start; in real time, sample times do not
+/// repeat. A sample with tick and sample time of a recent tick therefore belongs to this run.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,8 @@ namespace crane::runtime {
 
 class RecentTicks {
  public:
-  /// @param kept_s  a tick is kept at least for this time, > 0 @param period_s  of a tick, > 0
+  /// @param kept_s    shortest time for which a tick is stored, > 0
+  /// @param period_s  duration of a tick, > 0
   RecentTicks(double kept_s, double period_s)
       : ring_(static_cast<std::size_t>(std::ceil(kept_s / period_s)) + 1) {}
 
@@ -20,7 +21,8 @@ class RecentTicks {
   void add(const msg::Header& header, std::int64_t now_ns) {
     ring_[header.tick % ring_.size()] = {header.tick, header.sample_time_ns, now_ns};
   }
-  /// @return local time of the tick with these numbers; nothing when there is no such recent tick
+  /// @return local time of the tick with this number and sample time; nothing when there is no such recent
+  /// tick
   [[nodiscard]] std::optional<std::int64_t> time_of(const msg::Header& header) const {
     const auto& known = ring_[header.tick % ring_.size()];
     if (!known || known->tick != header.tick || known->sample_time_ns != header.sample_time_ns)

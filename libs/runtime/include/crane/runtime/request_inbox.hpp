@@ -22,8 +22,8 @@ class RequestInbox {
   static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
-  /// In real time, a request is refused if it names a tick older than this. The operator tools wait as long
-  /// for an answer; afterwards, their operator expects no motion.
+  /// In real time, a request that names an older tick is refused. The operator tools wait for an answer for
+  /// the same time; afterwards, the operator expects no motion.
   static constexpr double kLongestAge_s = 2;
 
   /// @param kinds  kinds of request that this process executes; it ignores all others
@@ -31,16 +31,15 @@ class RequestInbox {
 
   /// Takes up to 64 requests from the bus. Ignores requests whose source may not write crane/request. Refuses
   /// a request when kMostWaiting requests wait already; a stop that acts at once has kMostStops more places.
-  /// In lockstep, answers a request for a later tick with the reason "scheduled". In real time, a request
-  /// acts at once or not at all. Otherwise a request could start a motion after its operator has left, or
-  /// after a stop. Therefore the inbox refuses a request for a later tick, and a stop for a later tick acts
-  /// at once.
+  /// In lockstep, answers a request for a later tick with the reason "scheduled". In real time, refuses a
+  /// request for a later tick, which could start a motion after its operator has left or after a stop; a stop
+  /// for a later tick acts at once.
   /// @return true when a request arrived
   bool receive();
-  /// Notes a tick of this run. @param now_ns  its local time
+  /// Call at each tick of this run. @param now_ns  local time of the tick
   void stepped(const msg::Header& header, std::int64_t now_ns) { ticks_.add(header, now_ns); }
-  /// The crane stops now. In real time, refuses all requests that name an earlier tick, except those that
-  /// stop the crane.
+  /// Call when the crane stops. In real time, requests that name an earlier tick are then refused, except
+  /// requests that stop the crane.
   void stopped(std::int64_t now_ns) { stopped_ns_ = now_ns; }
   /// True if the request stops the crane.
   [[nodiscard]] static bool stops(const msg::Request& request);
@@ -58,7 +57,7 @@ class RequestInbox {
     msg::Request request;
     bus::ParticipantId sender;
   };
-  /// Why the request is refused as obsolete; empty: it is not.
+  /// @return why the request is obsolete; empty: the request is not obsolete
   [[nodiscard]] std::string_view obsolete_because(const msg::Request& request, std::int64_t now_ns) const;
   void refuse_untimely(std::uint64_t tick, std::int64_t now_ns);
 

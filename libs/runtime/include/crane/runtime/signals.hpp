@@ -9,8 +9,8 @@ namespace crane::runtime {
 void install_stop_signals();
 [[nodiscard]] bool stop_requested();
 
-/// Requests SIGTERM from the kernel for this process when the process `parent` ends. The child must call this
-/// function after exec: a request between fork and exec is lost when the program has file capabilities.
+/// Requests that the kernel sends SIGTERM to this process when the process `parent` ends. Call after exec:
+/// exec clears an earlier request when the program has file capabilities.
 /// @throws std::system_error; std::runtime_error when `parent` has ended already
 void die_with(int parent);
 

@@ -4,8 +4,8 @@
 
 namespace crane::runtime {
 
-/// Longest computation of a real-time thread without waiting. The computation of a tick takes less than a
-/// millisecond, that of a time-optimal plan less than 100 ms.
+/// Longest computation of a real-time thread without a blocking call. A tick takes less than 1 ms, a
+/// time-optimal plan less than 100 ms.
 inline constexpr std::chrono::milliseconds kLongestSpin{500};
 
 /// From now on the kernel sends SIGXCPU to this process when one of its threads with SCHED_FIFO has used the

@@ -16,9 +16,9 @@ namespace crane::runtime {
 
 struct JoinPolicy {
   bool in_order = true;  ///< true: lockstep; false: real time
-  /// Real time: wait for the other inputs after the poll() that opens the tick; a poll() that is late by half
-  /// this time extends the wait once, by half this time. 0: the first poll() opens a tick, and the second
-  /// finishes it without its missing inputs.
+  /// Real time: longest wait for the other inputs after the poll() that opens the tick. A poll() that is late
+  /// by half this time extends the wait once, by half this time. 0: the second poll() finishes the tick
+  /// without its missing inputs.
   std::int64_t bound_ns = 0;
   std::size_t depth = 8;       ///< ticks that an input may be ahead of the slowest input
   std::int64_t period_ns = 0;  ///< real time: period of the ticks, for the check of tick numbers; 0: no check
@@ -84,9 +84,9 @@ class TickInput {
       newest_ns_ = now_ns;
     }
   }
-  /// A wrong tick number far ahead would make all following samples late. The limit has two parts: twice the
-  /// nominal number of ticks since the newest sample, because the clocks of two hosts differ; and the number
-  /// of samples that the queue of the reader can hold, because they are taken at the same time.
+  /// A wrong tick number far ahead would make all following samples late. The limit is twice the nominal
+  /// number of ticks since the newest sample, because the clocks of two hosts differ, plus the length of the
+  /// queue of the reader, because queued samples are taken at the same time.
   [[nodiscard]] bool is_ahead(std::uint64_t tick, std::int64_t now_ns) const {
     constexpr std::uint64_t kQueued_ticks = 128;
     if (policy_.period_ns <= 0 || !newest_ || tick <= *newest_) return false;
@@ -165,8 +165,8 @@ class TickJoin {
     has_respite_ = false;
     return true;
   }
-  /// When this process was scheduled late, samples may have arrived at the host without being delivered yet.
-  /// Therefore this function extends the wait by half the bound, once per tick.
+  /// After a late wake-up, samples may have arrived that are not yet delivered: extends the wait by half the
+  /// bound, once per tick.
   bool woke_late(std::int64_t now_ns) {
     if (has_respite_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;
     due_ns_ = now_ns + policy_.bound_ns / 2;

@@ -1,7 +1,7 @@
 #pragma once
-/// Runs the component of a process in the thread that has just delivered a sample, or in the main thread,
-/// after wake() and at the times that the component requests. A hand-over to another thread would delay each
-/// sample by one wake-up.
+/// Runs the component of a process in the thread that delivers a sample; after wake() and at the times that
+/// the component requests, in the main thread. A hand-over to another thread would delay each sample by one
+/// wake-up.
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace crane::runtime {
 
-/// One thread at a time runs the component. Only end() waits for another thread to finish its polls. If
-/// another thread runs the component, run() leaves a request to this thread and returns: a receive thread may
-/// hold a lock of the vendor that the running thread needs, and if the receive thread waited, both could wait
-/// forever. The mutex is never held during a poll.
+/// One thread at a time runs the component. While another thread runs the component, run() leaves a request
+/// to that thread and returns: a receive thread may hold a lock of the vendor that the running thread needs,
+/// and would deadlock if it waited. Only end() waits for another thread. The mutex is never held during a
+/// poll.
 class Turn {
  public:
   /// @param monotonic_ns  clock of Component::poll()

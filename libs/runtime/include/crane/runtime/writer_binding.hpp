@@ -4,8 +4,8 @@
 /// The first writer whose kind of process may write the topic is bound, provided that it is the only writer.
 /// A sample from another DDS writer, or with another source or start-up number in its header, is foreign: the
 /// reader drops the sample, and the topic counts as disputed. A restarted process takes over after the bound
-/// writer has sent nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s), so
-/// that the crane waits for an operator when another writer takes over.
+/// writer has sent nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s):
+/// when another writer takes over, the crane already waits for an operator.
 ///
 /// Matched writers are compared by their identifiers, not counted: the first sample of a writer can be taken
 /// before DDS counts the writer as matched. A killed process remains matched until its lease ends (10 s).
@@ -48,11 +48,10 @@ class WriterBinding {
   /// writers; the writer of the sample may be missing
   [[nodiscard]] Verdict judge(const Writer& writer, std::int64_t now_ns,
                               std::span<const bus::WriterId> matched);
-  /// A sample that no process of the stack has sent (SampleInfo::entered is false): it is foreign, whatever
-  /// writer it names.
+  /// Refuses a sample that no process of the stack has sent (SampleInfo::entered is false), for every writer.
   void refuse_forged(const Writer& writer, std::int64_t now_ns);
-  /// Fast path of judge() for the bound writer, which does not need the matched writers. @return
-  /// false for every other writer; then call judge()
+  /// Fast path of judge() for the bound writer, without the matched writers. @return false for every other
+  /// writer; then call judge()
   [[nodiscard]] bool is_own(const Writer& writer, std::int64_t now_ns) {
     if (bound_ != writer) return false;
     heard_ns_ = now_ns;

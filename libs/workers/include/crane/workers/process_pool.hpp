@@ -38,7 +38,7 @@ struct Tasks {
 };
 
 /// `failure` of Tasks::ended is empty after exit code 0, otherwise "exit code 1" or "signal 11".
-/// Before an exception leaves this function, it kills the running tasks.
+/// An exception that leaves this function kills the running tasks.
 /// @throws std::system_error when a process cannot be started
 /// @throws the exceptions of take and ended
 void run(const Tasks& tasks);
