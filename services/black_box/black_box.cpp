@@ -131,8 +131,8 @@ int run(const Options& options) {
     observer.poll();
     keep(false);
   }
-  // Receives samples that are still in transit. The end of the other processes is not a fault, but the end of
-  // `crane up` before them is. The kernel announces the end of a parent before getppid() shows it.
+  // Receives samples that are still in transit. The end of the other processes is not a fault; the end of
+  // `crane up` before its processes is one. The kernel signals the end of a parent before getppid() shows it.
   const auto stop_ns = observation::log_now_ns();
   incidents.ignore_causes_after(stop_ns);
   while (observation::log_now_ns() < stop_ns + kLinger_ns) observer.poll();

@@ -34,8 +34,8 @@ recording::Metadata trigger_of(const Incident& incident) {
           {"faults", std::to_string(incident.faults)}};
 }
 
-/// Gives the file a name that no other file has. Some file systems lack hard links, others lack
-/// RENAME_NOREPLACE: both are tried.
+/// Renames the file without replacing another one. Some file systems lack hard links, others lack
+/// RENAME_NOREPLACE: the function tries both.
 /// @return false when another file has this name
 bool renamed(const std::filesystem::path& unfinished, const std::string& file) {
   if (::link(unfinished.c_str(), file.c_str()) == 0) {
@@ -56,8 +56,8 @@ std::filesystem::path published(const std::filesystem::path& unfinished, const s
   return file;
 }
 
-/// True if the file is at least 10 minutes old and its process does not exist here. A younger file may
-/// belong to a process of another host or container.
+/// True if the file is at least 10 minutes old and this host has no process with the number `pid`. A younger
+/// file may belong to a process of another host or container.
 bool is_abandoned(const std::filesystem::path& file, const std::string& pid) {
   constexpr std::chrono::minutes kLongestWrite{10};
   std::error_code error;

@@ -13,7 +13,8 @@ struct Origin {
   std::string rig_name, rig_text;  ///< rig file, which is attached; empty: unknown
 };
 
-/// "20261125T035501Z_SWING_LIMIT", without extension. The alphabetical order is the order of time.
+/// "20261125T035501Z_SWING_LIMIT": UTC and first cause, without extension. Sorted by name, the files are in
+/// the order of time.
 [[nodiscard]] std::string file_name_of(const Incident& incident);
 
 /// Writes the file, which appears when it is complete. If a file of this name exists (a second part of one
@@ -22,9 +23,8 @@ struct Origin {
 std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
                                      const Origin& origin, const recording::Metadata& processes);
 
-/// Deletes the oldest files of the black box, and files that are unfinished, at least 10 minutes old and of
-/// an ended process; other files
-/// are not deleted.
+/// Deletes the oldest incident files until `files` remain, and unfinished files that are at least 10 minutes
+/// old and whose process has ended. Deletes no other file.
 void keep_newest(const std::filesystem::path& directory, std::size_t files) noexcept;
 
 }  // namespace crane::black_box

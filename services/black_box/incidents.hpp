@@ -32,7 +32,7 @@ class Incidents {
   explicit Incidents(std::int64_t started_ns) : started_ns_{started_ns}, history_{kKept_ns} {}
 
   void add(const SamplePtr& sample);
-  /// Adds a fact that no sample states.
+  /// Adds a note that no sample contains, for example the end of `crane up`.
   void add(observation::Note note) { timeline_.add(std::move(note)); }
   /// @param ends  true: no more samples will come; an open incident is returned at once
   /// @return an incident that is complete; at most one per call

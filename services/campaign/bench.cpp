@@ -38,7 +38,7 @@ Bench::Bench(Setting setting)
       period_ns_{std::llround(setting_.configured.period_s * 1e9)},
       next_epoch_{kRestarted} {
   auto specs = stack::stack_with(stack::Plant::simulated);
-  building_ = this;  // ComponentSpec::make is a function pointer without a context
+  building_ = this;  // ComponentSpec::make is a plain function pointer and cannot capture this bench
   specs.front().make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
     return std::make_unique<bridge::Bridge>(context, std::make_unique<FaultyBoard>(building_->rig_));
   };
@@ -157,7 +157,7 @@ bool Bench::reach_hold() {
          row_.status.state == crane_STATE_HOLD;
 }
 
-/// Runs until the speed of the axis no longer increases.
+/// Runs until the axis of the fault moves and its speed no longer increases.
 bool Bench::reach_cruise() {
   constexpr double kMoving = 0.03;  // m/s, rad/s
   double fastest = 0;

@@ -17,7 +17,7 @@ using PublishFault = std::function<bool(const topics::Description& topic, void* 
 
 class Bench {
  public:
-  /// Starts the stack. @throws configuration::ConfigurationError as the components
+  /// Starts the stack. @throws configuration::ConfigurationError when a component refuses the rig file
   explicit Bench(Setting setting);
 
   [[nodiscard]] const Setting& setting() const { return setting_; }

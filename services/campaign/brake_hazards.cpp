@@ -23,7 +23,7 @@ std::function<bool()> slips(Bench& bench, std::size_t i) {
   const auto& drive = rig.drives[i];
   const auto& truth = bench.now().truth;
   constexpr double kBrakeCommand_ticks = 2;  // until the first sample with closed brakes
-  // Until the command arrives, the axis may gain as much speed as the brake can remove.
+  // Until the command arrives, the axis may accelerate by at most the deceleration of the brake.
   const double v = std::abs(truth.speed[i]) + drive.brake_deceleration * rig.period_s * kBrakeCommand_ticks;
   const double distance = 2 * stopping_distance(drive, v, supervisor_reaction_s(rig, i)) + drive.brake_slip +
                           v * rig.period_s * kBrakeCommand_ticks;
@@ -76,8 +76,8 @@ Injection slides_without_latch(Bench& bench, Random& /*random*/) {
           .visible = slips(bench, bench.axis())};
 }
 
-/// Detection time when the contact reports it: closing time and two ticks; in ARMING 0.2 s and two ticks.
-/// Without a report: as for a drive that does not move its axis (evidence.hpp).
+/// Detection time when the brake contact reports closed: closing time and two ticks; in ARMING 0.2 s and two
+/// ticks. When the contact reports nothing: as for a drive that does not move its axis (evidence.hpp).
 Injection brake_closes(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
   bench.rig().change_outputs = [i](bridge::Outputs& outputs) { outputs.brake_release[i] = false; };

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Result>);  // the result is sent from process to process as bytes
 
-/// Mixes the parts of a tuple (splitmix64).
+/// Hashes the parts of a tuple to a seed (splitmix64).
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   std::uint64_t x = a * 0x9E3779B97F4A7C15ULL + b * 0xBF58476D1CE4E5B9ULL + c + 1;
   x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -37,7 +37,7 @@ bool is_over(const Bench& bench) {
   return row.status.state >= crane_STATE_STOP_C0 || row.status.state == crane_STATE_LOCKED;
 }
 
-/// Runs until the crane has been at rest for a while, or the time of the injection is over.
+/// Runs until the crane has been at rest for kAfterwards_s, or the observation time of the injection is over.
 void watch(Bench& bench, const Injection& injection, Run& run) {
   constexpr double kAfterwards_s = 0.25, kControlledStop_s = 8.5;
   const double period_s = bench.setting().configured.period_s;

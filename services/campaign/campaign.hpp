@@ -1,7 +1,7 @@
 #pragma once
-/// Fault-injection campaign: many faults on many simulated cranes. A run is reproducible from its tuple. The
+/// Fault-injection campaign: many faults on many simulated cranes. The tuple of a run reproduces the run. The
 /// crane is prepared once per setting and moment; every run continues in a forked process, so that runs share
-/// nothing except the preparation.
+/// only the preparation.
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -26,14 +26,15 @@ struct Tuple {
 struct Result {
   Tuple tuple{};
   std::uint32_t violations = 0;  ///< bit i: Invariant i
-  bool crashed = false;          ///< the process of the run ended by itself
+  bool crashed = false;          ///< the process of the run ended without a result
   bool prepared = true;          ///< false: the crane did not reach the moment; the run was not judged
-  bool stopped = false, right = false;
-  Reason first{};
-  double detection_ms = -1, zero_volts_ms = -1, braked_ms = -1;  ///< < 0: none
+  bool stopped = false;          ///< true: the crane stopped after the onset
+  bool right = false;            ///< true: the first reason was an expected one
+  Reason first{};                ///< reason of the first stop after the onset
+  double detection_ms = -1, zero_volts_ms = -1, braked_ms = -1;  ///< as in Verdict; -1: none
   double bound_ms = 0;                                           ///< longest permitted detection time
-  double beyond_limit = 0;
-  char what[120] = {};  ///< of the first violation
+  double beyond_limit = 0;                                       ///< as in Verdict, m or rad
+  char what[120] = {};                                           ///< description of the first violation
 };
 
 struct Selection {

@@ -26,7 +26,7 @@ void shift_counter(Bench& bench, std::size_t counter, std::int32_t by) {
   };
 }
 
-/// Jump after which the apparent speed of the axis is `ratio` times its largest speed.
+/// Shifts the counter such that the encoder shows `ratio` times the largest speed of the axis for one tick.
 void jump_to_speed(Bench& bench, double ratio) {
   const std::size_t i = bench.axis();
   const auto& configured = bench.setting().configured;
@@ -98,8 +98,8 @@ Injection counts_wrong(Bench& bench, Random& random) {
   return random.pick(3) == 0 ? switch_at_wrong_position(bench, random) : lost_counts(bench, random);
 }
 
-/// Detection time after the imbalance of a frozen encoder is visible (evidence.hpp): four samples of the
-/// mean, two of a speed, and ten for one tolerated push.
+/// Detection time from the visibility of a frozen swing encoder (SwingEvidence): four samples for the mean,
+/// two for a speed, ten for one tolerated push of the load.
 constexpr double kSwingDetection_ms = 160;
 
 Injection swing_encoder(Bench& bench, Random& random) {

@@ -2,9 +2,9 @@
 /// Time from which the true motion distinguishes a faulty drive or encoder from a rig within its tolerances
 /// (docs/safety.md): gain 25 %, offset 0.3 V, friction 0 to 1.5 times that of the rig file plus 0.3 V, load 0
 /// to 1.5 times. Motion beyond the tolerances is an unexplained speed. The fault is visible when the
-/// unexplained speed reaches 10 % of max_speed plus 10 % of the speed plus four counts per tick. A check with
-/// half of this limit then had sufficient evidence for at least one sample. The detection time (30 ms, hazard
-/// 20) starts when the fault is visible.
+/// unexplained speed reaches 10 % of max_speed plus 10 % of the speed plus four counts per tick: twice the
+/// limit of the checks, which can then decide from at least one sample. The detection time (30 ms, hazard 20)
+/// starts when the fault is visible.
 #include <complex>
 #include <cstddef>
 #include <optional>
@@ -20,11 +20,11 @@ inline constexpr double kEncoderDetection_ms = 100;  ///< hazard 16 and 19
 class Evidence {
  public:
   Evidence(Bench& bench, std::size_t axis) : bench_{&bench}, axis_{axis} {}
-  /// Call for a drive that gets other volts than the bridge has written. @return true from the time at which
-  /// the fault is visible
+  /// For a drive whose voltage differs from the one that the bridge has written. @return true from the time
+  /// at which the fault is visible
   bool of_drive();
-  /// Call for an encoder that has been frozen since the first call. @return true from the time at which the
-  /// fault is visible
+  /// For an encoder that is frozen from the first call on. @return true from the time at which the fault is
+  /// visible
   bool of_standing_encoder();
 
  private:
@@ -37,11 +37,12 @@ class Evidence {
   double sum_above_ = 0, sum_below_ = 0;
 };
 
-/// Same for a frozen swing encoder: relative to the ground, (2.11) and (2.18) of H. M. Omar, Control of
-/// Gantry and Tower Cranes, the acceleration of trolley and measured load and gravity at the measured angle
-/// do not balance in the direction of the encoder. Tolerances: zero error 20 mrad, wind 0.25 m/s^2, cable
-/// length 55 %, which leaves this share of the measured change of the swing rate. The fault is visible at
-/// twice 50 mm/s and two counts per four samples.
+/// Evidence of a frozen swing encoder, in the frame of the ground, (2.11) and (2.18) of H. M. Omar, Control
+/// of Gantry and Tower Cranes: the acceleration of the load, computed from the trolley and the shown swing,
+/// does not balance gravity at the shown swing angle. Only the component in the direction of the encoder
+/// counts. Tolerances: zero error 20 mrad, wind 0.25 m/s^2, error of the cable length 55 %. The fault is
+/// visible when the sum of the imbalance reaches twice (50 mm/s plus the noise: two counts in four samples at
+/// 1.5 times the cable length).
 class SwingEvidence {
  public:
   SwingEvidence(Bench& bench, std::size_t counter);

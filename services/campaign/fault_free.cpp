@@ -34,7 +34,7 @@ bool has_tripped(const Row& row) {
          row.status.cause != crane_CAUSE_OPERATOR_DISARM;
 }
 
-/// True when an axis moved by more than `distance` since the row `since`.
+/// True when an axis moved by more than `distance(axis)`, m or rad, from row `since` to row `at`.
 bool has_moved(const Setting& setting, const std::vector<Row>& rows, std::size_t since, std::size_t at,
                const std::function<double(std::size_t)>& distance) {
   for (std::size_t i = 0; i < kAxes; ++i)
@@ -44,8 +44,8 @@ bool has_moved(const Setting& setting, const std::vector<Row>& rows, std::size_t
   return false;
 }
 
-/// True when a controlled stop has taken too long because an axis still moves: the axis moved by more than
-/// half a count within the 0.1 s that define standstill.
+/// True when a controlled stop took too long because an axis did not come to rest: the axis moved by more
+/// than half a count within the 0.1 s that define standstill.
 bool stops_without_rest(const Setting& setting, const std::vector<Row>& rows, std::size_t at) {
   constexpr std::size_t kStandstill_ticks = 10;
   return at >= kStandstill_ticks && has_moved(setting, rows, at - kStandstill_ticks, at, [&](std::size_t i) {
@@ -92,8 +92,8 @@ class FaultFreeRun {
       fail(to_string(reason));
     }
   }
-  /// "812.4 1 gain_scheduling_partial on gantry, ...": seconds, 1 when the true state confirms the reason,
-  /// the trip.
+  /// "812.4 1 gain_scheduling_partial on gantry, ...": virtual time in s; 1 when the true state confirms the
+  /// reason, else 0; description of the trip.
   [[nodiscard]] std::string line() const {
     return std::to_string(seconds_) + (confirmed_ ? " 1 " : " 0 ") + trip_ + "\n";
   }

@@ -1,5 +1,5 @@
 /// Hazards 41 and 43: commands that a correct supervisor never gives. The bridge must detect their effects
-/// alone.
+/// without the supervisor.
 #include "campaign/evidence.hpp"
 #include "campaign/hazards.hpp"
 #include "campaign/traffic.hpp"
@@ -7,8 +7,9 @@
 namespace crane::campaign {
 namespace {
 
-/// A faulty supervisor opens brakes, drives one axis without end, and reports that the bridge obeys. The
-/// judge ignores the status of this supervisor. @param all_axes  true: opens every brake
+/// Falsifies crane/command: opens the brake of one axis and drives this axis at `volts_v`. Falsifies
+/// crane/state, too, so that the supervisor sees a bridge that obeys its genuine commands and does not stop
+/// the crane. The judge ignores the status of the supervisor. @param all_axes  true: opens every brake
 Injection faulty_supervisor(Bench& bench, double volts_v, bool all_axes) {
   bench.publish_fault = [i = bench.axis(), volts_v, all_axes, before = 0.0, released = AxisFlags{}](
                             const topics::Description& topic, void* sample) mutable {
@@ -34,7 +35,7 @@ Injection faulty_supervisor(Bench& bench, double volts_v, bool all_axes) {
   return {.expectation = {.supervisor_faulty = true}, .watched_s = 4};
 }
 
-constexpr double kRampStep_v = 2;  // change per tick of faulty_supervisor()
+constexpr double kRampStep_v = 2;  // largest change of the voltage per tick in faulty_supervisor()
 
 double ramp_ms(double from_v, double to_v) { return 10 * std::ceil(std::abs(to_v - from_v) / kRampStep_v); }
 
@@ -58,8 +59,9 @@ Injection swings_past_its_limit(Bench& bench) {
   return injection;
 }
 
-/// Detection time: the ramp of the volts; the time for 5 mm (docs/hardware.md) from rest with the smallest
-/// gain and the volts beyond 1.5 times the friction, 0.5 V and the load at its swing limit; two ticks.
+/// Detection time: ramp of the voltage; time for 5 mm (docs/hardware.md) from rest; two ticks. The time for
+/// 5 mm applies the smallest gain to the voltage less 1.5 times the friction, 0.5 V and the pull of the load
+/// at its swing limit.
 double frozen_due_ms(const Bench& bench, double volts_v) {
   const auto& rig = bench.setting().configured;
   const auto& p = rig.plant;
@@ -92,8 +94,8 @@ Injection drives_with_dead_encoder(Bench& bench) {
   return injection;
 }
 
-/// The drive moves against its voltage. Detection time: the ramp of the volts; 120 ms in which earlier
-/// commands may explain the motion; 50 ms for the speed; three states in a row; two ticks.
+/// The drive moves against its voltage. Detection time: ramp of the voltage; 120 ms in which earlier commands
+/// may explain the motion; 50 ms until the axis has speed; three consecutive states; two ticks.
 Injection drives_with_reversed_sign(Bench& bench) {
   const std::size_t i = bench.axis();
   const double volts_v = -direction(bench) * 5;
@@ -148,9 +150,9 @@ Injection bridge_alone(Bench& bench, Random& random) {
   }
 }
 
-/// Samples under the name of the supervisor. The fault is visible when the voltage is outside the range from
-/// 0 V to the supervisor's own voltage. Detection time: the bridge obeys in the next tick and reports the
-/// voltage one tick later; two states in a row prove the forgery.
+/// A foreign program forges commands of the supervisor. The fault is visible when the voltage is outside the
+/// range from 0 V to the genuine voltage. Detection time: the bridge obeys in the next tick and reports the
+/// voltage one tick later; two consecutive states prove the forgery.
 Injection forged(Bench& bench, Random& random) {
   constexpr double kTolerance_v = 0.2;  // converter steps and an error of the scale
   const std::size_t i = bench.axis();

@@ -27,22 +27,26 @@ class Random {
   std::mt19937_64 random_;
 };
 
-/// Where a hazard is tested.
-enum class TestBed : std::uint8_t { campaign, process, hardware };
+/// Test bed of a hazard.
+enum class TestBed : std::uint8_t {
+  campaign,  ///< simulated crane in virtual time: this library
+  process,   ///< tests with real processes or files
+  hardware   ///< a real rig only
+};
 
 struct Injection {
   Expectation expectation{};
   double watched_s = 1;  ///< duration of the observation after the onset
-  std::function<bool()>
-      visible{};  ///< true when the effect of the fault is visible; empty: from the onset on
+  /// Returns true when the effect of the fault is visible; empty: visible from the onset on.
+  std::function<bool()> visible{};
 };
 
 struct Hazard {
   int number;  ///< docs/campaign.md refers to it
   const char* name;
   TestBed test_bed = TestBed::campaign;
-  const char* verified_by = "";  ///< for other test beds than the campaign: where the hazard is verified
-  std::uint64_t every = 1;       ///< only every n-th seed, because a run takes long
+  const char* verified_by = "";  ///< test that verifies the hazard on another test bed than the campaign
+  std::uint64_t every = 1;       ///< n: only every n-th seed runs, because a run takes long
   bool from_power_on = false;    ///< true: the fault acts from power-on, independent of the moment
   /// Changes the rig before the stack starts; null: no change. The preparation of such a run is not shared
   /// with another run.
@@ -67,9 +71,9 @@ struct Hazard {
 [[nodiscard]] std::span<const Hazard> request_hazards();
 [[nodiscard]] std::span<const Hazard> start_hazards();
 
-/// Direction in which the setting moves the axis of the fault.
+/// Sign of the move of the setting on the axis of the fault: 1 or -1.
 [[nodiscard]] double direction(const Bench& bench);
-/// Counts for a change of a coordinate.
+/// Converts a change of a coordinate, m or rad, to encoder counts.
 [[nodiscard]] std::int32_t counts(const Bench& bench, std::size_t counter, double change);
 /// Counter of the swing that the motion of the axis causes: radial for trolley and hoist, tangential for the
 /// jib.
@@ -78,7 +82,7 @@ struct Hazard {
 void freeze(Bench& bench, std::size_t counter);
 /// True when the error of the counter exceeds `error`, m or rad.
 [[nodiscard]] std::function<bool()> sees_error(Bench& bench, std::size_t counter, double error);
-/// Pushes the load so that it swings with the amplitude `rad`.
+/// Pushes the load so that it swings with the amplitude `rad` in rad.
 void push(Bench& bench, double rad);
 /// True when the swing requires a stop: above its limit; in a controlled stop, which damps the swing, above
 /// 1.25 times its limit.
@@ -87,7 +91,7 @@ void push(Bench& bench, double rad);
 [[nodiscard]] Injection switch_at_wrong_position(Bench& bench, Random& random);
 /// True when the true state is beyond the limit that the reason names.
 [[nodiscard]] std::function<bool()> crosses(Bench& bench, Reason reason);
-/// longer than the 1 s for which causes must be inactive before a reset
+/// Longer than the 1 s for which all causes must be inactive before a reset.
 inline constexpr double kClear_s = 1.2;
 /// Expects that the newest request is refused.
 [[nodiscard]] Injection refusal();

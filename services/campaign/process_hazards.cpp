@@ -71,7 +71,7 @@ Injection partition(Bench& bench, Random& random) {
     };
   };
   switch (random.pick(3)) {
-    case 0:  // disconnects operator and observers
+    case 0:  // disconnects operator and tools
       cut([](const Description& topic) { return !topic.every_tick; });
       return nothing();
     case 1:  // disconnects the computer of the controllers

@@ -37,7 +37,7 @@ Injection duplicates(Bench& bench, const Description& topic) {
   return nothing();
 }
 
-/// Swaps pairs of samples: every second sample is late, and no three ticks in a row are incomplete.
+/// Swaps the samples of each pair: every second sample is late; at most two consecutive ticks are incomplete.
 Injection swapped(Bench& bench, const Description& topic) {
   auto stored = std::make_shared<StoredSample>(topic);
   bench.wire = on(topic, [stored](const void* sample, const bus::Deliver& deliver) {
@@ -51,7 +51,7 @@ Injection swapped(Bench& bench, const Description& topic) {
   return nothing();
 }
 
-/// Repeats one old sample.
+/// Delivers one old sample instead of every later one.
 Injection replayed(Bench& bench, const Description& topic) {
   auto stored = std::make_shared<StoredSample>(topic);
   bench.wire = on(topic, [stored](const void* sample, const bus::Deliver& deliver) {
@@ -129,8 +129,8 @@ Injection jumping(Bench& bench, Random& random) {
   bench.publish_fault = falsify(topics::demand, [axis = bench.axis(), side, high_v](msg::Demand& demand) {
     demand.total_v[axis] = (*side = -*side) * high_v;
   });
-  // The gate limits every second reversal only. A limited tick counts 4 and the next one -1 towards a limit
-  // of 48: 32 ticks, and one until the command acts.
+  // The gate limits only every second reversal. A limited tick adds 4 to the count and the next tick
+  // subtracts 1; the limit of 48 is reached after 32 ticks. The command acts one tick later.
   return {.expectation = {.reasons = {because(crane_CAUSE_DEMAND_RATE)}, .detection_ms = 330},
           .visible = [&bench] { return bench.now().status.state >= crane_STATE_HOLD; }};
 }
@@ -169,7 +169,7 @@ Injection corrupted(Bench& bench, Random& random) {
     return {.expectation = {.reasons = {because(crane_CAUSE_SWING_LIMIT)}, .detection_ms = 20},
             .watched_s = 0.6,
             .visible = swings_too_far(bench)};
-  auto injection = lost(topic);  // a bit in the padding between fields has no effect: some samples are intact
+  auto injection = lost(topic);  // a flipped bit in the padding between fields leaves the sample intact
   injection.expectation.communication = false;
   injection.expectation.detection_ms = 300;
   return injection;
@@ -204,7 +204,8 @@ Injection unauthorised(Bench& bench, Random& random) {
 
 void with_ledger(Setting& setting, Random& /*random*/) { setting.ledger = true; }
 
-/// Forged samples of the genuine writer, each before the genuine one. The stack has a ledger.
+/// Forged samples with the source and epoch of the genuine writer, each before the genuine sample. The stack
+/// has a ledger.
 Injection forged_in_its_name(Bench& bench, Random& random) {
   static const std::array<const Description*, 3> kTopics{
       &topics::state.description, &topics::demand.description, &topics::command.description};
@@ -231,7 +232,8 @@ Injection wrong_times(Bench& bench, Random& random) {
         if (!first) first = time_ns;
         time_ns = *first + jump_ns + static_cast<std::int64_t>(rate * static_cast<double>(time_ns - *first));
       });
-  // The first state at half the rate deviates by less than a period and is used: its speeds are doubled.
+  // At half the rate, the time of the first state deviates by less than a period: the readers use this state,
+  // whose speeds are doubled.
   return {.expectation = {.reasons = {because(crane_CAUSE_STATE_STALE), because(crane_CAUSE_FOLLOWING_ERROR),
                                       because(crane_CAUSE_OVERSPEED)},
                           .detection_ms = 60}};

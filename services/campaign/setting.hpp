@@ -1,6 +1,6 @@
 #pragma once
-/// Situation of the crane when a fault is injected: rig, controller and move, which the seed selects, and the
-/// moment.
+/// Situation of the crane when a fault is injected. The seed selects rig, controller and move; the moment is
+/// the state of the move.
 #include <optional>
 #include <string_view>
 

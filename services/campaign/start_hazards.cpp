@@ -93,7 +93,7 @@ Injection arming_fails(Bench& bench, Random& random) {
       inputs.raw_counts[i] = simulator::wrap_24_bit(inputs.raw_counts[i] + by);
     };
     injection.expectation.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE)};
-    // Detection time: ticks from the release of the brake to `brake_slip`, and two more.
+    // Detection time: ticks from the release of the brake until the axis has moved by `brake_slip`, plus two.
     const auto& drive = bench.setting().configured.drives[i];
     const double distance = 0.8 * drive.max_speed * bench.setting().configured.period_s;
     injection.expectation.detection_ms = 10 * std::ceil(drive.brake_slip / distance) + 20;
@@ -125,8 +125,8 @@ void request_homing(Bench& bench) {
   bench.run(0.4);
 }
 
-/// Detection time: 0.11 m to the mark at 0.05 m/s, twice 0.02 m back, at most 0.04 m of approach and 0.02 m
-/// of leaving at 0.01 m/s, and half as much again for starts and stops.
+/// Detection time: 0.11 m to the mark and twice 0.02 m back at 0.05 m/s; at most 0.04 m of approach and
+/// 0.02 m off the mark at 0.01 m/s; times 1.5 for starts and stops.
 Injection homing(Bench& bench, Random& random) {
   request_homing(bench);
   Injection injection{.expectation = {.detection_ms = 14'000, .position_is_false = true}, .watched_s = 16};

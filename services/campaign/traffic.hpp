@@ -21,7 +21,7 @@ class StoredSample {
   [[nodiscard]] const void* look() const { return bytes_.data(); }
   [[nodiscard]] const void* take();
   void flip(std::size_t bit);
-  /// Changes a voltage or a position, the worst effect of a wrong bit.
+  /// Changes the voltage of `axis`, or the trolley position: the most dangerous effect of a wrong bit.
   void change_value(std::size_t axis);
   /// Gives the sample a correct CRC.
   void seal();

@@ -9,7 +9,7 @@
 namespace crane::campaign {
 namespace {
 constexpr std::uint32_t kFirstEpoch = 1;
-// delay before the next poll of a component that requests a time in the past
+// Delay before the next poll of a component whose requested time is in the past.
 constexpr std::int64_t kShortestStep_ns = 100'000;
 }  // namespace
 

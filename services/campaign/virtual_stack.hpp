@@ -1,7 +1,6 @@
 #pragma once
-/// A stack with the real-time clock in one process and in virtual time. The components wait, lose ticks and
-/// stop as in separate processes. No result depends on the computer. Runs are therefore reproducible bit for
-/// bit.
+/// Runs the real-time stack in one process and in virtual time. The components wait, lose ticks and stop as
+/// in separate processes. No result depends on the computer: runs are reproducible bit for bit.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,7 +21,7 @@ class VirtualStack {
   [[nodiscard]] std::int64_t now_ns() const { return now_ns_; }
   /// Polls all components until `time_ns`.
   void run_until(std::int64_t time_ns);
-  /// Suspends the component until `time_ns`; kNever: it hangs.
+  /// Suspends the component until `time_ns`; kNever: the component hangs.
   void suspend(crane_Source source, std::int64_t time_ns);
   /// Ends the process of a component: destroys component and endpoints.
   void kill(crane_Source source);

@@ -6,7 +6,7 @@
 namespace crane::recorder {
 namespace {
 
-/// Reduces both numbers by the smaller one. @return the smaller one
+/// Subtracts min(a, b) from both numbers. @return min(a, b)
 std::uint64_t cancel(std::uint64_t& a, std::uint64_t& b) {
   const auto common = std::min(a, b);
   a -= common;

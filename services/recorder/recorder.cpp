@@ -68,7 +68,7 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
     const auto& wanted = options.topics;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), &topic) == wanted.end()) continue;
     bus::EndpointOptions endpoint;
-    // the recorder receives earlier events; loop topics have no history
+    // The recorder receives events from before its start; loop topics have no history.
     endpoint.history = topic.qos == topics::Qos::log;
     const auto lost = std::make_shared<std::atomic<std::uint64_t>>(0);
     endpoint.on_event = counter_of_lost(lost);

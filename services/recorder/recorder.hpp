@@ -1,6 +1,6 @@
 #pragma once
-/// Records topics of a running crane to MCAP: the received samples with a correct CRC, without
-/// change. What is missing is written to the recording too (crane/recording/loss.hpp).
+/// Records topics of a running crane to MCAP: the received samples with a correct CRC, without change, and
+/// the number and cause of the missing samples (crane/recording/loss.hpp).
 ///
 ///   log time      time of arrival: wall clock at the start of the recording plus monotonic time, so that a
 ///                 change of the system clock causes no jump
@@ -21,7 +21,7 @@ namespace crane::recorder {
 struct Options {
   std::filesystem::path file;
   std::vector<const topics::Description*> topics{};  ///< empty: all
-  std::size_t queue_capacity = 16384;                ///< samples; about 20 s of a stack at 100 Hz
+  std::size_t queue_capacity = 16384;                ///< samples; 16384: about 20 s of a stack at 100 Hz
   Limits limits{};
   std::string rig_text{};  ///< rig file to attach; empty: none
 };
@@ -40,25 +40,25 @@ class Recorder {
 
   [[nodiscard]] const RecordingThread& thread() const { return *thread_; }
   [[nodiscard]] std::uint64_t rejected() const;  ///< samples with a wrong CRC, which are not recorded
-  [[nodiscard]] bool heard_others() const {
-    return heard_others_;
-  }  ///< true: a sample of another process arrived
+  /// True when a sample of another process has arrived.
+  [[nodiscard]] bool heard_others() const { return heard_others_; }
 
  private:
   struct Source {
     bus::CdrSubscriber subscriber;
     std::uint16_t channel;
     bool holds_events;
-    std::shared_ptr<const std::atomic<std::uint64_t>> lost;  ///< as DDS reports it
+    std::shared_ptr<const std::atomic<std::uint64_t>> lost;  ///< samples that DDS has reported as lost
     bool heard = false;                                      ///< a sample has arrived
-    std::uint64_t lost_seen = 0, rejected_seen = 0;          ///< passed to `missing`
+    std::uint64_t lost_seen = 0, rejected_seen = 0;          ///< numbers already passed to `missing`
     MissingSamples missing;
     msg::Header last{};  ///< of the last sample
   };
   void take_all(Source& source);
   /// Counts the ticks between the last sample and this one of the same writer.
   void count_gap(Source& source, const msg::Header& header);
-  /// Notes the missing samples. @param all  also those of the last second, whose cause may still arrive
+  /// Writes the missing samples to the recording. @param all  true: also those of the last second, although
+  /// their cause may still arrive
   void note_losses(Source& source, bool all);
   void report();
   void announce_failure();

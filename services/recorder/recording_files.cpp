@@ -26,7 +26,7 @@ void RecordingFiles::begin_file() {
   ++number_;
   const bool first = number_ == 1;
   file_ = limits_.split() ? recording::part_file(recording_, number_) : recording_;
-  // Only the first file may replace another one: the caller has asked before it starts a recording.
+  // Only the first file may replace an existing one, because the caller has checked only the first.
   writer_.emplace(file_, recording::WriterOptions{.sync = true, .replace = first});
   topics_ = prepare_(*writer_);
   loss_channel_ = recording::add_loss_channel(*writer_);
@@ -67,7 +67,7 @@ void RecordingFiles::begin_part(std::int64_t log_time_ns) {
     keep_quota();
     begin_file();
   }
-  // the ends of all parts are multiples of the length after the first sample
+  // Every part ends a whole number of lengths after the first sample.
   if (part_ends_ns_ && log_time_ns >= *part_ends_ns_) {
     const auto length_ns = limits_.part.count();
     *part_ends_ns_ += ((log_time_ns - *part_ends_ns_) / length_ns + 1) * length_ns;

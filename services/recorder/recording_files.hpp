@@ -1,6 +1,6 @@
 #pragma once
-/// The files of one recording: one file, or parts that begin at a size or after a time. Each file is
-/// self-contained. A quota deletes the oldest parts of this recording, and no other file.
+/// The files of one recording: one file, or parts of limited size or duration. Each file is self-contained.
+/// With a quota, the oldest parts of this recording are deleted, and no other file.
 #include <sys/stat.h>
 
 #include <chrono>
@@ -30,7 +30,7 @@ struct Entry {
 /// Without any limit the recording is one file.
 struct Limits {
   std::uint64_t part_bytes = 0;      ///< largest size of a part, bytes; 0: no limit
-  std::chrono::nanoseconds part{0};  ///< log time of a part; 0: no limit
+  std::chrono::nanoseconds part{0};  ///< duration of a part in log time; 0: no limit
   /// Largest sum of the sizes of all parts, bytes; 0: no limit. Needs part_bytes, at most half of the quota.
   std::uint64_t quota_bytes = 0;
 
@@ -58,7 +58,7 @@ class RecordingFiles {
 
   [[nodiscard]] std::uint64_t bytes() const;  ///< of the existing files
   [[nodiscard]] std::uint32_t parts() const { return number_; }
-  /// Events since the last call that a person should know: a deleted file, a part that cannot be deleted.
+  /// Warnings since the last call: a deleted file, a part that cannot be deleted.
   [[nodiscard]] std::vector<std::string> take_warnings();
   [[nodiscard]] const std::string& topic(std::uint16_t channel) const { return topics_.at(channel); }
 

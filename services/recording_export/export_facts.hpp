@@ -1,5 +1,5 @@
 #pragma once
-/// Parts that the exports to HDF5 and MATLAB share.
+/// Functions that the exports to HDF5 and MATLAB share.
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -10,11 +10,11 @@
 
 namespace crane::recording_export {
 
-/// What a recording says about itself: "exported_by", "recording", "messages_version", the entries of its
-/// metadata ("crane.domain"), the texts of its attachments ("rig.toml").
+/// Description of a recording for the exported file: "exported_by", "recording", "messages_version", the
+/// entries of the metadata ("crane.domain") and the texts of the attachments ("rig.toml").
 [[nodiscard]] std::map<std::string, std::string> export_facts(recording::McapReader& recording);
 
-/// Unit of all elements of the column, empty: none. @return nothing when the elements have different units
+/// @return unit of all elements of the column; "": dimensionless; nothing: the elements have different units
 [[nodiscard]] std::optional<std::string> common_unit(const recording::Column& column);
 
 /// Calls `write` with the name FILE.partial and renames the result to FILE. When `write` throws, no file

@@ -20,7 +20,7 @@ using recording::Column;
 using recording::ColumnTable;
 using recording::Kind;
 
-/// Rows that are collected before they are written; also the rows of a chunk of the file.
+/// Rows per write and per chunk of the file.
 constexpr std::size_t kRows = 4096;
 /// zlib: higher levels take longer and save little on noisy measurements.
 constexpr unsigned kCompression = 1;

@@ -31,7 +31,7 @@ Variable checked(matvar_t* variable) {
   return {variable, Mat_VarFree};
 }
 
-/// A name of MATLAB: letters, digits and underscores. "axis.position" -> "axis_position"
+/// Valid MATLAB name (letters, digits, underscores): "axis.position" -> "axis_position".
 std::string matlab_name(std::string name) {
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
@@ -110,7 +110,7 @@ MatType mat_type(Kind kind) {
   return {MAT_C_DOUBLE, MAT_T_DOUBLE};
 }
 
-/// The values in the order of MATLAB: element by element.
+/// The values in column-major order, as MATLAB stores a matrix.
 std::vector<std::uint8_t> by_element(const Column& column, std::size_t rows) {
   const auto size = recording::size_of(column.kind);
   std::vector<std::uint8_t> values(column.bytes.size());
@@ -178,7 +178,7 @@ Structure topic_structure(const std::string& topic, const std::string& type, con
   return structure;
 }
 
-/// @param reason  if the system has reported none
+/// @param reason  used when errno is 0
 [[noreturn]] void fail_to_write(const char* reason = "the matio library reports an error") {
   throw std::runtime_error(std::string{"cannot write: "} + (errno != 0 ? std::strerror(errno) : reason));
 }

@@ -7,14 +7,13 @@
 namespace crane::replay {
 namespace {
 
-/// Ticks by which samples of one tick may arrive later than the state of a later tick: the history of a loop
-/// topic.
+/// Samples of tick k may arrive until the state of tick k + kLate_ticks: the history depth of a loop topic.
 constexpr std::uint64_t kLate_ticks = 128;
 constexpr auto kBegin_ns = std::numeric_limits<std::int64_t>::min();
 constexpr auto kEnd_ns = std::numeric_limits<std::int64_t>::max();
 
-/// After ticks without samples: the reference follows from the state of one of these ticks, or the bridge
-/// applies the command of one of them. Then the recorder has missed samples.
+/// True after ticks without recorded samples, when the reference follows from the state of one of these
+/// ticks, or the bridge applies the command of one of them: the recorder has missed these samples.
 bool answers_unknown_state(const RecordedTick& tick, std::uint64_t last_known) {
   const auto* cdr = tick.find(topics::state.description);
   const auto* reference = tick.find(topics::reference.description);
@@ -68,7 +67,7 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
   const auto visit_first = [&] {
     auto first = ticks_.extract(ticks_.begin());
     auto& tick = first.mapped().tick;
-    // The processes discover the bridge one after the other; the supervisor completes the stack.
+    // The processes discover the bridge in any order. The stack is complete when the supervisor steps.
     if (begins && !has_supervisor_stepped(tick, after(tick.number))) {
       has_earlier_ = has_earlier_ || tick.find(topics::state.description) != nullptr;
       return;
@@ -86,14 +85,15 @@ void ArrivalOrder::for_each(std::int64_t period_ns, const std::function<bool(con
     while (goes_on && !ticks_.empty() && ticks_.begin()->first + kLate_ticks < newest) visit_first();
     return goes_on;
   });
-  // The reference of the next tick has no state: the recording ends.
+  // The last tick has a reference but no state: the recording ends before it.
   while (goes_on && !ticks_.empty() && ticks_.begin()->first <= newest) visit_first();
   ticks_.clear();
 }
 
-/// The recorder may discover the bridge after its first ticks. A supervisor that has not finished its
-/// self-test shows that the stack has just started, with closed brakes and 0 V. A planner that begins with
-/// this tick publishes its reference from the state of this tick, otherwise from the state before it.
+/// The recorder may discover the bridge after the first ticks of the bridge. A supervisor that has not
+/// finished its self-test shows that the stack has just started, with closed brakes and 0 V. A planner that
+/// starts in this tick publishes the reference from the state of this tick; a planner that ran before
+/// published it from the previous state.
 bool ArrivalOrder::begin(RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit) {
   constexpr std::uint64_t kMost_ticks = 100;
   const auto* cdr = first.find(topics::state.description);
@@ -225,7 +225,7 @@ void ArrivalOrder::add_requests(std::uint64_t tick, const Between& times, std::v
   }
 }
 
-/// Only a step with a state takes samples of the stick.
+/// The supervisor takes samples of the stick only in a step with a state.
 void ArrivalOrder::add_jogs(RecordedTick& tick) const {
   const auto jogs = jogs_.find(tick.number);
   if (jogs == jogs_.end()) return;

@@ -25,7 +25,7 @@ class ArrivalOrder {
   /// Calls `visit` for each tick in the order of the ticks, until `visit` returns false. The last visited
   /// tick has RecordedTick::ends when a replay cannot go on.
   void for_each(std::int64_t period_ns, const std::function<bool(const RecordedTick&)>& visit);
-  /// Ticks before the first recorded one, in which the crane rested as in this one.
+  /// Ticks before the first recorded tick; the replay assumes that the crane rested in them as in this tick.
   [[nodiscard]] std::uint64_t assumed_ticks() const { return assumed_; }
 
  private:
@@ -48,8 +48,8 @@ class ArrivalOrder {
   [[nodiscard]] const RecordedTick* after(std::uint64_t number) const;  ///< null: not recorded
   [[nodiscard]] std::optional<msg::SupervisorStatus> next_status() const;
   void add_steps_without_state(Gathered& gathered);
-  /// Decides how the stack began: with the first complete tick, or before the recorder did. In the second
-  /// case, visits the ticks before the first recorded one.
+  /// Decides whether the stack began with the first complete tick, or ran before the recorder. If it ran
+  /// before, visits the assumed ticks before the first recorded tick.
   bool begin(RecordedTick& first, const std::function<bool(const RecordedTick&)>& visit);
   struct Between {
     std::int64_t after_ns, until_ns;
@@ -67,7 +67,7 @@ class ArrivalOrder {
   std::map<std::uint64_t, Gathered> ticks_;                  ///< not visited yet
   std::map<std::string_view, std::uint32_t> epochs_;         ///< of the writers, by topic
   std::optional<msg::SupervisorStatus> before_;  ///< status of the previous step of the supervisor
-  std::optional<std::uint64_t> missing_demand_;  ///< its missing_demand_count; nothing: unknown
+  std::optional<std::uint64_t> missing_demand_;  ///< missing_demand_count of `before_`; nothing: unknown
   std::uint64_t assumed_ = 0;
   std::optional<std::uint64_t> last_state_;  ///< last tick with a state
   bool has_earlier_ = false;  ///< true: there are states before the first step of the supervisor

@@ -42,7 +42,7 @@ int first_element(const Field& field, const std::vector<std::uint8_t>& a,
   return -1;
 }
 
-/// All digits of a double, and its bits when they have no digits.
+/// 17 significant digits, which determine the double; for a NaN its bits.
 std::string text_of(double value) {
   std::array<char, 64> text{};
   if (std::isnan(value))

@@ -14,7 +14,7 @@ struct FieldDifference {
   std::string recorded, replayed;  ///< values as text; a NaN with its bits
 };
 
-/// Compares the bytes: a NaN equals a NaN with the same bits only, and 0 differs from -0.
+/// Compares the bytes: a NaN equals only a NaN with the same bits, and 0 differs from -0.
 /// @param recorded, replayed  plain CDR with the encapsulation header
 /// @return nothing when both are equal
 [[nodiscard]] std::optional<FieldDifference> first_difference(const topics::Description& topic,

@@ -8,7 +8,7 @@
 namespace crane::replay {
 namespace {
 
-constexpr int kPlanners = 8;  // the replay decides by the reference in at most one tick less
+constexpr int kPlanners = 8;  // the recorded reference decides in at most kPlanners - 1 ticks
 
 bool is_recorded(const std::vector<Received>& replayed, const Cdr& recorded) {
   const auto& topic = topics::reference.description;
@@ -50,8 +50,8 @@ bool PrescribedStack::receive(const RecordedTick& tick) {
   return complete_;
 }
 
-/// When the replay begins later than the planner, the recorded reference of the first tick follows from the
-/// state before it.
+/// When the planner started before the recording, the recorded reference of the first tick follows from the
+/// previous state.
 void PrescribedStack::begin_planner(const RecordedTick& tick) {
   std::vector<Received> published;
   for (auto& planner : planners_) {

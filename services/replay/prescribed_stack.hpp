@@ -1,6 +1,6 @@
 #pragma once
-/// The components of a stack without its clock master, which step as the recording states: with the recorded
-/// inputs, without missing inputs, or not at all.
+/// The components of a stack without its clock master. In each tick, a component steps with the inputs that
+/// the recording shows for it, or does not step.
 #include <list>
 #include <map>
 #include <span>
@@ -31,7 +31,7 @@ class PrescribedStack final : public ReplayedStack {
   void step_supervisor(const RecordedTick& tick);
   void step_without_state(const StepWithoutState& step);
   void step_planner(const RecordedTick& tick);
-  /// @return what the planner has published. @param begun  it has received the state already
+  /// @param begun  true: the planner has already received the state. @return samples of the planner
   std::vector<Received> step(PrescribedComponent& planner, bool begun, bool has_status);
   PrescribedComponent& of(crane_Source source) { return components_.at(source); }
   void deliver(PrescribedComponent& component, const topics::Description& topic);
@@ -43,9 +43,9 @@ class PrescribedStack final : public ReplayedStack {
 
   bool corrects_reference_;                                 ///< the tracking law reads crane/anti_swing
   std::map<crane_Source, PrescribedComponent> components_;  ///< all but the planner
-  /// Copies in the same state. The first one steps first; when its reference differs from the recorded one,
-  /// and the recording leaves open whether the planner had the status, the second one steps the other way
-  /// and replaces it.
+  /// Copies of the planner in the same state. The first copy steps first. If its reference differs from the
+  /// recorded reference, and the recording does not show whether the planner had the status, the second copy
+  /// steps without the status and replaces the first.
   std::list<PrescribedComponent> planners_;
   std::map<std::string_view, std::map<std::uint64_t, Cdr>> samples_;  ///< by topic and tick
   std::vector<Received> repeated_;
@@ -53,7 +53,7 @@ class PrescribedStack final : public ReplayedStack {
   std::int64_t time_ns_ = 0;     ///< sample time of the present tick
   std::int64_t stepped_ns_ = 0;  ///< time of the last step of the supervisor
   std::uint64_t decided_by_outputs_ = 0;
-  bool complete_ = true;  ///< false: an input of the present tick was in no sample
+  bool complete_ = true;  ///< false: an input of this tick was neither recorded nor replayed
 };
 
 }  // namespace crane::replay

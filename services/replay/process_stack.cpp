@@ -113,8 +113,8 @@ bool ProcessReplay::deliver(const Received& input, std::uint64_t tick) {
   return true;
 }
 
-/// Repeats a request only while the supervisor has not discovered its writer: it executes a request once per
-/// tick.
+/// Publishes the request again only when no confirmation arrives within 0.5 s: the supervisor then has not
+/// discovered the writer. The supervisor would execute every copy that it receives.
 void ProcessReplay::schedule(RecordedWriters::Operator& sender, const msg::Request& request) {
   until([&] { return sender.requests.matched() > 0; }, "the supervisor to receive requests");
   std::int64_t repeat_ns = 0;

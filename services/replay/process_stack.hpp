@@ -13,13 +13,13 @@
 namespace crane::replay {
 
 struct ProcessOptions {
-  runtime::BusOptions bus{};  ///< its vendor applies to every process that is not in `vendors`
-  std::map<std::string, std::string> vendors{};  ///< by component name
+  runtime::BusOptions bus{};                     ///< bus.vendor: DDS of the processes not in `vendors`
+  std::map<std::string, std::string> vendors{};  ///< DDS vendor by component name
 };
 
 class ProcessReplay final : public ReplayedStack {
  public:
-  /// Writes the rig file of the run for the processes. They start with the first tick.
+  /// Writes the rig file of the run for the processes, which start with the first tick.
   ProcessReplay(std::vector<runtime::ComponentSpec> components, const RecordedRun& run,
                 const ProcessOptions& options);
   ~ProcessReplay() override;
@@ -35,8 +35,8 @@ class ProcessReplay final : public ReplayedStack {
 
  private:
   void start(const Cdr& first_state);
-  /// The samples of two topics may overtake each other. Therefore the tick begins after the supervisor has
-  /// received every sample of the stick, and has confirmed every request, which is scheduled for the tick.
+  /// Samples of different topics may overtake each other. Therefore the function returns after the supervisor
+  /// has received the sample of the stick, or has confirmed that the request is scheduled for the tick.
   bool deliver(const Received& input, std::uint64_t tick);
   void schedule(RecordedWriters::Operator& sender, const msg::Request& request);
   bool is_scheduled(const msg::Request& request);

@@ -50,7 +50,7 @@ RecordedRun::RecordedRun(const std::filesystem::path& file)
   if (const auto version = recording::messages_version(reader_); version != crane_MESSAGES_VERSION)
     refuse("messages of version " + std::to_string(version.value_or(1)) + ", this program has version " +
            std::to_string(crane_MESSAGES_VERSION));
-  // A recording of `crane run` states the clock and the controller, one of a recorder does not.
+  // The metadata of `crane run` state clock and controller; the metadata of a recorder do not.
   if (problems.empty() && !origin_.contains("clock")) arrivals_.emplace(reader_);
   if (arrivals_)
     for (const auto* topic : {&topics::accepted_request.description, &topics::accepted_jog.description})

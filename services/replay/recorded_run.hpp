@@ -1,7 +1,6 @@
 #pragma once
-/// A recorded run: what the stack received and published in each tick, its rig file and its controller.
-/// `crane run` writes the samples in the order of the ticks; a recorder writes them in the order of their
-/// arrival.
+/// A recorded run: inputs and outputs of the stack in each tick, rig file and controller. `crane run` writes
+/// the samples in the order of the ticks, a recorder in the order of arrival.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -42,7 +41,7 @@ class RecordedRun {
   /// Calls `visit` for each tick with a sample of a loop topic, until `visit` returns false.
   /// @throws Refusal when a topic has two samples of one tick in a recording of `crane run`
   void for_each(const std::function<bool(const RecordedTick&)>& visit);
-  /// As ArrivalOrder::assumed_ticks(); after for_each().
+  /// As ArrivalOrder::assumed_ticks(). @pre for_each() has run
   [[nodiscard]] std::uint64_t assumed_ticks() const { return arrivals_ ? arrivals_->assumed_ticks() : 0; }
   /// Damage found so far (McapReader::problems()).
   [[nodiscard]] const std::vector<std::string>& problems() const { return reader_.problems(); }

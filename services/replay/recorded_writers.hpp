@@ -1,6 +1,6 @@
 #pragma once
-/// The writers of a recording outside the replayed stack: clock master, operators, and the supervisor when it
-/// is not replayed. Each publishes with its recorded source and start-up number.
+/// Publishes the recorded samples of the writers outside the replayed stack: clock master, operators, and the
+/// supervisor when it is not replayed. Each writer has its recorded source and start-up number.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -17,10 +17,9 @@ namespace crane::replay {
 class RecordedWriters {
  public:
   using BusOf = std::function<bus::Bus(const std::string& name, crane_Source source, std::uint32_t epoch)>;
-  /// All samples of one client come from one participant: the supervisor accepts crane/jog from the
-  /// participant that requested the session.
-  /// A participant announces its writers in the order of their creation: a process that answers a request has
-  /// also discovered the writer of the stick.
+  /// One participant publishes all samples of one client, because the supervisor accepts crane/jog only from
+  /// the participant that requested the session. The participant announces its writers in the order of their
+  /// creation: a process that answers a request has also discovered the writer of crane/jog.
   struct Operator {
     bus::Bus bus;
     bus::Publisher<msg::Jog> jogs;
@@ -31,8 +30,9 @@ class RecordedWriters {
 
   /// Creates the writer of crane/state, before the first tick. @param first  its first sample
   void open_clock_master(const Cdr& first);
-  /// @param configuration  replaces that of the sample: the replayed components have another controller, and
-  ///   would report the difference. @return false when the sample is not valid or not sent
+  /// @param configuration  replaces the configuration number of the sample when the replayed components run
+  ///   another controller, because they would report the difference
+  /// @return false when the sample is not valid or not sent
   bool publish_state(const Cdr& cdr, std::optional<std::uint32_t> configuration = std::nullopt);
   bool publish_supervisor(const Cdr& cdr);
   /// Publishes a request or a sample of crane/jog.

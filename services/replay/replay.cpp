@@ -79,7 +79,7 @@ class Comparison {
     return false;
   }
 
-  /// The bridge has skipped this tick. The planner has published its reference in the tick before.
+  /// The bridge has skipped this tick, whose reference the planner has published in the tick before.
   bool skips(const RecordedTick& tick) {
     ++result_.skipped_ticks;
     if (!is_equal(topics::reference.description, tick)) return false;
@@ -125,8 +125,8 @@ class Comparison {
                    {"crc32c", std::to_string(state.crc32c), std::to_string(sealed.crc32c)});
   }
 
-  /// The planner may have been there before the stack was complete: it has published the reference of the
-  /// first tick from the state before it.
+  /// The reference of the first tick is not compared: a planner that started before the stack was complete
+  /// published it from the previous state.
   static bool is_compared(const topics::Description& topic, const RecordedTick& tick) {
     return !tick.assumed && !(tick.begins && topic.name == topics::reference.description.name);
   }
@@ -156,8 +156,9 @@ class Comparison {
     return true;
   }
 
-  /// A process that was late, or has ended, has published no sample; its readers continued without it. A
-  /// difference soon after a missing sample shows this, and not another behaviour of the program.
+  /// A process that was late, or has ended, published no sample, and its readers continued without the
+  /// sample. A difference soon after a missing sample is therefore attributed to the missing sample, not to
+  /// the program.
   bool differs(const topics::Description& topic, FieldDifference what) {
     constexpr std::uint64_t kEffect_ticks = 2;
     if (doubt_ && next_ - doubt_->tick <= kEffect_ticks)
@@ -190,7 +191,7 @@ class Comparison {
   };
   std::optional<Doubt> doubt_;  ///< last tick that the replay cannot repeat for certain
   std::uint64_t begin_ = 0;     ///< first tick
-  std::uint64_t next_ = 0;      ///< tick
+  std::uint64_t next_ = 0;      ///< next tick to compare
   double time_s_ = 0;
 };
 

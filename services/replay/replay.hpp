@@ -1,7 +1,7 @@
 #pragma once
 /// Replays a recording in lockstep: the components of the stack receive the recorded samples of clock master
-/// and operators, and everything that the components publish must equal the recording, bit for bit. The
-/// start-up numbers of the processes in a recording of the recorder are random and are not compared.
+/// and operators; every sample that they publish must equal the recorded one bit for bit. Start-up numbers
+/// are not compared in a recording of the recorder, because they are random.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -34,12 +34,12 @@ struct Result {
   std::uint64_t skipped_ticks = 0;        ///< ticks without a state, because the bridge was late
   std::uint64_t steps_without_state = 0;  ///< of the supervisor
   std::uint64_t decided_by_outputs = 0;   ///< as ReplayedStack::decided_by_outputs()
-  std::vector<std::string>
-      problems;                ///< damage of the recording; the replay ends before the first damaged tick
-  recording::Metadata origin;  ///< of the recording: rig, controller, scenario, version ...
+  /// Damage of the recording; the replay ends before the first damaged tick.
+  std::vector<std::string> problems;
+  recording::Metadata origin;  ///< metadata of the recording: rig, controller, scenario, version, ...
 };
 
-/// The components of every stack behind its clock master.
+/// The components of every stack except its clock master.
 [[nodiscard]] std::vector<runtime::ComponentSpec> loop_components();
 
 /// @param components  replayed components. @throws recording::ReadError, Refusal

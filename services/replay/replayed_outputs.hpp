@@ -1,5 +1,5 @@
 #pragma once
-/// What the replayed components publish on the loop topics, by topic and tick.
+/// Samples that the replayed components publish on loop topics, by topic and tick.
 #include <cstdint>
 #include <map>
 #include <span>

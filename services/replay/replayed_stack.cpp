@@ -27,7 +27,7 @@ bool InProcessReplay::receive(const RecordedTick& tick) {
   if (state == nullptr) return false;
   for (const auto& input : tick.inputs)
     if (!writers_.publish_input(input)) return false;
-  // Without the supervisor, another controller may run; the recorded state then gets its configuration.
+  // Without the supervisor, another controller may run; the state then carries the configuration of this one.
   if (!writers_.publish_state(*state, has_supervisor_ ? std::nullopt : std::optional{configuration_}))
     return false;
   run();

@@ -18,7 +18,7 @@ class ReplayedStack {
   /// writes this topic. Afterwards all components wait for the next tick. @return false when a sample
   /// cannot be decoded
   [[nodiscard]] virtual bool receive(const RecordedTick& tick) = 0;
-  /// @return what the stack has published; nothing when it has published no sample of the tick
+  /// @return sample that the stack published in the tick; null: none
   [[nodiscard]] virtual const Cdr* find(const topics::Description& topic, std::uint64_t tick) const = 0;
   virtual void forget_until(std::uint64_t tick) = 0;
   /// True: the components step as RecordedTick::steps states. False: they step in lockstep.
@@ -27,7 +27,7 @@ class ReplayedStack {
   [[nodiscard]] virtual std::uint64_t decided_by_outputs() const { return 0; }
   /// False: the recorded outputs no longer decide, because too many ticks required such a decision.
   [[nodiscard]] virtual bool decides_by_outputs() const { return false; }
-  /// Further samples of a tick, published since the call of receive(): those of steps without a state.
+  /// Second and later samples of this tick, from steps of the supervisor without a state.
   [[nodiscard]] virtual const std::vector<Received>& repeated() const {
     static const std::vector<Received> none;
     return none;

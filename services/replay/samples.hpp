@@ -28,14 +28,13 @@ template <class T>
 /// The header is the first field of every topic. @return nothing when the sample is too short
 [[nodiscard]] std::optional<msg::Header> header_of(std::span<const std::uint8_t> cdr);
 
-/// @return the sample with another start-up number and the checksum of the changed sample; the sample itself
-/// when it is not valid
+/// Replaces the start-up number and the checksum. @return the unchanged sample when it is not valid
 [[nodiscard]] Cdr with_epoch(const topics::Description& topic, const Cdr& cdr, std::uint32_t epoch);
 
 /// @param sample  C struct of the topic
 [[nodiscard]] Cdr encoded(const topics::Description& topic, const void* sample);
 
-/// The sample as its writer would have published it, with its checksum. @pre the header has source and epoch
+/// Encodes the sample with its checksum, as its writer publishes it. @pre the header has source and epoch
 template <class T>
 [[nodiscard]] Cdr published(const topics::Topic<T>& topic, T sample) {
   bus::seal(topic.description, &sample, sample.header.source, sample.header.epoch);

@@ -30,13 +30,13 @@ std::optional<std::int64_t> between_ns(const Published& first, const Published& 
   return from_ns && until_ns ? std::optional{*until_ns - *from_ns} : std::nullopt;
 }
 
-/// The control laws have stepped, and therefore had the reference of the tick.
+/// True when a control law stepped: it then had the reference of the tick.
 bool used_reference(const RecordedTick& tick) {
   return has(tick, topics::tracking.description) || has(tick, topics::anti_swing.description) ||
          has(tick, topics::demand.description);
 }
 
-/// The command of tick k is applied in tick k + 1.
+/// True when the bridge applied the command of tick k, as it does in tick k + 1.
 bool is_applied(const RecordedTick& tick, const RecordedTick* next) {
   const auto state = next == nullptr ? std::nullopt : sample_of(topics::state, *next);
   return state && tick.number > 0 && state->applied_command_tick == tick.number;
@@ -69,7 +69,7 @@ void decide_supervisor(const RecordedTick& tick, const RecordedTick* next,
                        std::optional<std::uint64_t> missing_demand, Steps& steps) {
   const auto status = sample_of(topics::supervisor, tick);
   steps.supervisor = has_supervisor_stepped(tick, next);
-  // The count begins with 0: a supervisor that counts 0 has had the demand of every tick.
+  // The count starts at 0: a supervisor with a count of 0 had the demand of every tick.
   const auto before =
       status && status->missing_demand_count == 0 ? std::optional<std::uint64_t>{0} : missing_demand;
   steps.supervisor_has_demand = status && before ? status->missing_demand_count == *before : steps.friction;

@@ -18,8 +18,8 @@ std::optional<msg::Demand> demand_of(const Cdr* cdr) {
   return cdr == nullptr ? std::nullopt : decoded(topics::demand, *cdr);
 }
 
-/// The components that compute the demand. The supervisor is not one of them, because it would compare the
-/// motion with the commands of the other controller, which did not cause this motion.
+/// The components that compute the demand, without the supervisor: it would compare the recorded motion with
+/// the commands of the other controller, which did not cause this motion.
 std::vector<runtime::ComponentSpec> demanding_components() {
   auto components = loop_components();
   std::erase_if(components, [](const auto& component) {

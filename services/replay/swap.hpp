@@ -16,7 +16,7 @@
 
 namespace crane::replay {
 
-/// Largest |demand of the other controller - recorded demand| of one axis.
+/// Largest |demand of the other controller - recorded demand| of one axis, V.
 struct LargestDifference {
   double difference_v = 0, recorded_v = 0, other_v = 0;
   std::uint64_t tick = 0;

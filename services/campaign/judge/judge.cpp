@@ -114,7 +114,7 @@ class Judgement {
                run_.accepted ? "a request was accepted that must be refused" : "a request was not answered");
   }
 
-  /// Faults that bridge and supervisor must each detect, even when the other one has stopped the crane.
+  /// Bridge and supervisor must each detect the fault, even when the other one has already stopped the crane.
   void independent_detection() {
     const auto& wanted = run_.expectation;
     if (wanted.bridge_must_latch != crane_LATCH_NONE &&
@@ -127,7 +127,8 @@ class Judgement {
                "the supervisor has not detected the fault by itself");
   }
 
-  /// @return true when the effect was not visible, or the detection time was not over at the end of the run
+  /// @return true when a row shows the detection in time; also when the fault was never visible, or the run
+  /// ended before the longest permitted time
   template <class Shows>
   [[nodiscard]] bool seen_in_time(const Shows& shows) const {
     const double bound_ms = run_.expectation.independent_ms + 1e-6;
@@ -141,14 +142,14 @@ class Judgement {
   void nothing_outwards() {
     const auto& axis = run_.expectation.outwards_axis;
     if (!axis || !verdict_.first || verdict_.first->cause != crane_CAUSE_STOPPING_ENVELOPE) return;
-    for (std::size_t k = first_row_ + 1; k < run_.rows.size();
-         ++k)  // the command of this tick acts from the next tick on
+    // The command of the tick of the detection acts from the next tick on.
+    for (std::size_t k = first_row_ + 1; k < run_.rows.size(); ++k)
       if (run_.rows[k].truth.written_v[*axis] * run_.expectation.outwards > kVolt)
         violated(Invariant::zero_volts, k,
                  "a voltage outwards although the axis would not stop before its limit");
   }
 
-  /// Without the bridge, only the relay of the rig acts on the brakes.
+  /// When the bridge has ended, only the relay of the rig closes the brakes.
   void relay_acts() {
     for (std::size_t k = onset_; k < run_.rows.size(); ++k)
       if (run_.rows[k].truth.brake_closed == present_brakes(run_.rows[k])) {
@@ -186,7 +187,7 @@ class Judgement {
     if (run_.expectation.communication && !controlled &&
         ms(run_.onset_ns, zero_ns.value_or(end_ns)) > kCommunicationBound_ms + 1e-6)
       violated(Invariant::zero_volts, first_row_, "0 V comes late after the onset");
-    // The ramp takes its time even when no voltage was applied.
+    // The supervisor runs its ramp to 0 V even when no voltage was applied.
     const bool late = ms(detected_ns, commanded_ns.value_or(end_ns)) > reaction_ms + 1e-6;
     if (zero_ns && late && ms(*zero_ns, commanded_ns.value_or(end_ns)) > kBrakesBound_ms + 1e-6)
       violated(Invariant::brakes_commanded, first_row_, "the brakes are commanded closed late");

@@ -17,7 +17,7 @@ enum class Invariant : std::uint8_t {
   only_supervisor,   ///< I6: the drives get the published command of the supervisor, or 0 V
   volts_in_range,    ///< I7: |u| and its change are within the limits of the drive
   right_reason,      ///< I8: the first reason is an expected one, within its detection time
-  recoverable,       ///< I9: an interrupted recording loses at most a second
+  recoverable,       ///< I9: an interrupted recording loses at most the last second
   no_false_trip      ///< I10: nothing stops a crane without a fault
 };
 inline constexpr std::size_t kInvariants = 10;
@@ -32,9 +32,9 @@ struct Violation {
 struct Verdict {
   std::vector<Violation> violations;
   std::optional<Reason> first;          ///< reason of the first stop after the onset
-  std::optional<double> detection_ms;   ///< from the time at which the fault was visible
-  std::optional<double> zero_volts_ms;  ///< from the same time to 0 V
-  std::optional<double> braked_ms;      ///< from the same time to closed brakes
+  std::optional<double> detection_ms;   ///< from the visibility of the fault to the first reason
+  std::optional<double> zero_volts_ms;  ///< from the visibility of the fault to 0 V
+  std::optional<double> braked_ms;      ///< from the visibility of the fault to closed brakes
   double beyond_limit = 0;  ///< largest distance of an axis with open brake from a hard limit, m or rad
 };
 

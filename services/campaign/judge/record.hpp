@@ -17,12 +17,12 @@ using AxisFlags = std::array<bool, kAxes>;
 /// True state of the rig.
 struct Truth {
   PerAxis position{};  ///< m, rad, m of cable
-  PerAxis speed{};     ///< per second
+  PerAxis speed{};     ///< m/s, rad/s, m/s of cable
   double swing_radial_rad = 0, swing_tangential_rad = 0;
   PerAxis converter_v{};  ///< voltage at the drives
   AxisFlags brake_closed{};
   PerAxis written_v{};        ///< voltage that the bridge has written
-  AxisFlags brake_release{};  ///< brake supplies that the bridge has written
+  AxisFlags brake_release{};  ///< true: the bridge has switched the supply of the brake on
 };
 
 /// Truth, messages and requests at the end of one tick.
@@ -58,22 +58,25 @@ struct Expectation {
   bool volts_by_rig = false;
   /// true: wrong counters permit motion beyond a hard limit; I1 reports it only
   bool position_is_false = false;
-  bool loses_commands =
-      false;             ///< true: a command to stop may be lost; the bridge then stops the crane after 50 ms
+  /// true: a command to stop may be lost; the bridge then stops the crane after 50 ms
+  bool loses_commands = false;
   bool refused = false;  ///< true: the newest request of the operator must be refused
   /// volts_by_rig: longest time from onset to closed brakes: relay, coil and two ticks
   double braked_by_rig_ms = 90;
   bool supervisor_gone = false;  ///< true: no supervisor follows a latch of the bridge
-  bool supervisor_faulty =
-      false;                ///< true: the status of the supervisor is wrong, and only the bridge is judged
-  double acts_late_ms = 0;  ///< delay of the bridge itself: added to the times until volts and brakes
+  /// true: the status of the supervisor is wrong; only the bridge is judged
+  bool supervisor_faulty = false;
+  double acts_late_ms = 0;  ///< delay of the bridge; added to the permitted times until 0 V and closed brakes
   /// The bridge must latch with this reason, even after a stop by the supervisor; LATCH_NONE: no requirement.
   crane_LatchReason bridge_must_latch = crane_LATCH_NONE;
   /// The supervisor must report this cause, even after a latch of the bridge; CAUSE_NONE: no requirement.
   crane_Cause supervisor_must_find = crane_CAUSE_NONE;
-  double independent_ms = 0;  ///< longest time for both, from the time at which the fault was visible
-  std::optional<std::size_t> outwards_axis{};  ///< after STOPPING_ENVELOPE no voltage may drive this axis ...
-  double outwards = 1;                         ///< ... in this direction
+  double independent_ms =
+      0;  ///< longest permitted time of both requirements, from the visibility of the fault
+  /// After STOPPING_ENVELOPE no voltage may drive this axis in the direction `outwards`; nothing: no
+  /// requirement.
+  std::optional<std::size_t> outwards_axis{};
+  double outwards = 1;             ///< 1 or -1
   bool brakes_are_broken = false;  ///< true: I3 and I4 do not apply, because a brake does not close
 };
 
@@ -81,8 +84,8 @@ struct Run {
   std::vector<Row> rows{};
   std::int64_t begin_ns = 0;  ///< no request or fault before
   std::int64_t onset_ns = 0;  ///< onset of the fault
-  std::optional<std::int64_t>
-      visible_ns{};  ///< earliest time at which the effect was visible; nothing: never
+  /// Earliest time at which the effect was visible; nothing: never.
+  std::optional<std::int64_t> visible_ns{};
   Expectation expectation{};
   std::optional<bool> accepted{};  ///< answer to the newest request of the operator
 };

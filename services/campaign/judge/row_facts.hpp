@@ -11,7 +11,7 @@ inline constexpr double kVolt = 1e-9;  ///< V: rounding error
   return static_cast<double>(to_ns - from_ns) * 1e-6;
 }
 
-/// True in states of a stop: power is, or is being, removed. LOCKED is the end of a stop.
+/// True in the states of a stop: the drives have no power, or lose it. LOCKED is the end of a stop.
 [[nodiscard]] inline bool is_stop(crane_SupervisorState state) {
   return state >= crane_STATE_STOP_C1 || state == crane_STATE_LOCKED || state == crane_STATE_SELFTEST;
 }

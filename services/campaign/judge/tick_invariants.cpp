@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kOutside = 1e-3;          // I1: m, rad; small compared with any stopping distance
 constexpr double kSlip = 1e-3;             // I4: m, rad
-constexpr double kAtRest = 1e-6;           // m/s, rad/s: below, an axis of the simulated rig is locked
+constexpr double kAtRest = 1e-6;           // m/s, rad/s: the simulated rig locks an axis below this speed
 constexpr std::size_t kOldestCommand = 6;  // ticks: the bridge applies a command for at most five ticks
 
 class TickInvariants {

@@ -13,7 +13,7 @@ namespace crane::campaign {
 [[nodiscard]] bool is_true(const Reason& reason, const configuration::Rig& rig, std::span<const Row> rows,
                            std::size_t k);
 
-/// Stopping distance with this speed, unit. @param reaction_s  time until the brakes close
+/// Stopping distance from `speed` (m/s or rad/s), m or rad. @param reaction_s  time until the brakes close
 [[nodiscard]] double stopping_distance(const configuration::Drive& drive, double speed, double reaction_s);
 
 /// Reaction time of the supervisor: one tick until a sample shows the speed, a ramp of 20 ms, the brake.
