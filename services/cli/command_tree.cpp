@@ -46,7 +46,7 @@ std::string words_of(const Command& command) {
   return words;
 }
 
-/// Text for troff: a line must not begin with a control character, and '-' and '\' stand for themselves.
+/// Escapes text for troff: no line begins with a control character, and '-' and '\' are printed literally.
 std::string troff(const std::string& text) {
   std::string result;
   bool line_begins = true;

@@ -21,10 +21,10 @@ struct Command {
   std::vector<std::string> subcommands;
 };
 
-/// The command and all below it, in the order of --help.
+/// `root` and all its subcommands, in the order of --help.
 [[nodiscard]] std::vector<Command> commands_of(const CLI::App& root);
 
-/// Script that completes commands and options, and file names in all other places.
+/// Script that completes commands, options and, in all other places, file names.
 [[nodiscard]] std::string bash_completion(const std::vector<Command>& commands);
 [[nodiscard]] std::string zsh_completion(const std::vector<Command>& commands);
 /// Page of section 1 (man-pages(7)).

@@ -16,8 +16,8 @@ std::string braille(unsigned dots) {  // U+2800 + dots as UTF-8
           static_cast<char>(0x80U | (code & 0x3FU))};
 }
 
-/// Bit of a dot: Unicode numbers the dots of the upper three rows by column, those of the last row after
-/// them.
+/// Bit of a dot of a braille character. Unicode numbers the dots of the upper three rows by column, then the
+/// dots of the last row.
 unsigned bit_of(int column, int row) {
   constexpr unsigned kBits[kDotRows][kDotColumns]{{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
   return kBits[row][column];
@@ -63,7 +63,7 @@ std::string label(double value) {
   return text;
 }
 
-/// Column of points at a time, of `columns` columns.
+/// Index in [0, columns) of the column of points at `time_s`.
 int column_of(double time_s, const CurveBox& box, int columns) {
   const double share = (time_s - box.from_s) / (box.to_s - box.from_s);
   return static_cast<int>(std::lround(share * (columns - 1)));

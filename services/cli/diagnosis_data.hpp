@@ -17,8 +17,8 @@ struct DiagnosisData {
 /// Rows in which the supervisor permits motion; all rows when the table has no supervisor_state.
 [[nodiscard]] recording::Table under_control(recording::Table table);
 
-/// Files ending in .mcap are recordings, all others are CSV files. The mapping applies to CSV files; of a
-/// recording it selects times.
+/// Files that end in .mcap are recordings, all others CSV files. The mapping describes the columns of CSV
+/// files; for recordings, only its time range applies.
 /// @throws diagnosis::DataError with the problems of all files
 [[nodiscard]] DiagnosisData read_diagnosis_data(const std::vector<std::string>& train,
                                                 const std::vector<std::string>& test,

@@ -38,7 +38,7 @@ double memory_mb(pid_t process) {
   return 0;
 }
 
-/// The components have programs of their own. `crane up` and the black box are the program `crane`.
+/// True for a component of the loop: its executable is not `crane`, which runs `crane up` and the black box.
 bool in_loop(pid_t process) {
   std::error_code ignored;
   return std::filesystem::read_symlink("/proc/" + std::to_string(process) + "/exe", ignored).filename() !=
@@ -121,8 +121,8 @@ void Fleet::take_statuses(std::int64_t now_ns) {
   }
 }
 
-/// A crane that is armed already refuses the reset and the arming. A crane that has stopped after its first
-/// move stays stopped and accepts no move.
+/// An armed crane refuses reset and arming without effect. A crane that stops after its first move is not
+/// reset: its later moves are refused.
 void Fleet::operate(Operator& by, FleetCrane& crane, std::int64_t now_ns) const {
   constexpr std::array kInTurn{crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_MOVE};
   while (const auto status = by.supervisor.take()) by.next.seen = status->header;

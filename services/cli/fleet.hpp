@@ -37,16 +37,16 @@ struct FleetCrane {
   [[nodiscard]] std::uint64_t lost_ticks() const;
 };
 
-/// Observes all cranes of a fleet with one participant, whose DDS partition PREFIX* matches the partitions of
-/// all cranes. Operates each crane with a participant of its own.
+/// Observes all cranes with one participant, whose DDS partition PREFIX* matches the partitions of all
+/// cranes. Operates each crane with a separate participant.
 class Fleet {
  public:
   /// @param bus  `bus.crane` is the common prefix of the names of the cranes
   Fleet(const runtime::BusOptions& bus, const configuration::Rig& rig);
 
   void add(std::string name, pid_t crane_up);
-  /// Receives statuses and replies. After operate(), also sends requests to each crane: reset, arm and move
-  /// in turn, until the crane has accepted a move; then only moves.
+  /// Receives statuses and replies. After operate(), also sends requests to each crane: the cycle reset, arm,
+  /// move until the crane has accepted a move; then only moves.
   void poll();
   /// Permits poll() to send requests.
   void operate() { operates_ = true; }
@@ -76,7 +76,7 @@ class Fleet {
   std::deque<Operator> operators_;       ///< in the order of cranes_
   std::map<pid_t, std::size_t> owners_;  ///< index of the crane of a process
   std::size_t axis_ = 0;                 ///< the axis that moves
-  std::array<double, 2> targets_{};      ///< of the moves in turn, m or rad
+  std::array<double, 2> targets_{};      ///< targets of alternate moves, m or rad
   bool operates_ = false;
 };
 

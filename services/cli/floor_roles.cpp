@@ -22,7 +22,7 @@
 namespace crane::cli {
 namespace {
 
-/// Topics of a chain: process i writes topic i and reads the topic of process i - 1, process 0 the last one.
+/// Topics of a chain: process i writes topic i and reads topic i - 1; process 0 reads the last topic.
 const std::array<const topics::Description*, kChainProcesses> kChain{
     &topics::state.description, &topics::tracking.description, &topics::demand.description,
     &topics::command.description};

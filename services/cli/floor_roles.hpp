@@ -1,5 +1,6 @@
 #pragma once
-/// The processes of the floors of `crane bench tick`. No function returns: the measuring process ends them.
+/// Main functions of the floor processes of `crane bench tick`. They do not return: the measuring process
+/// ends the floor processes.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -8,16 +9,18 @@
 
 namespace crane::cli {
 
-/// Memory that the processes of one floor share with the measuring process. The times follow it.
+/// Head of the memory that the processes of one floor share with the measuring process. The array of measured
+/// times follows the head.
 struct FloorBoard {
-  std::atomic<std::int64_t> begin_ns;  ///< 0: not yet
-  std::atomic<int> ready;              ///< processes that are connected
-  std::atomic<bool> fifo;
-  std::atomic<std::uint64_t> count;  ///< of measured times
+  std::atomic<std::int64_t>
+      begin_ns;                      ///< start of a tick of the loop, CLOCK_MONOTONIC; 0: do not measure yet
+  std::atomic<int> ready;            ///< number of connected processes
+  std::atomic<bool> fifo;            ///< true: the processes run with SCHED_FIFO
+  std::atomic<std::uint64_t> count;  ///< number of measured times
   [[nodiscard]] std::int64_t* times_ns() { return reinterpret_cast<std::int64_t*>(this + 1); }
 };
 
-/// Time of a floor within the period, as a share. The loop needs the begin of the period.
+/// Start of each floor within the control period, as a share of the period. The loop uses the first part.
 inline constexpr double kFutexPhase = 0.25, kUdpPhase = 0.35, kCyclonePhase = 0.5, kFastPhase = 0.75;
 
 inline constexpr std::size_t kChainProcesses = 4;
@@ -29,7 +32,7 @@ class UdpChain {
   ~UdpChain();
   UdpChain(const UdpChain&) = delete;
   UdpChain& operator=(const UdpChain&) = delete;
-  /// The work of one process; process 0 begins each round trip and measures it.
+  /// Main function of one process. Process 0 starts and measures each round trip.
   void pass(FloorBoard& board, const FloorOptions& options, std::size_t process) const;
 
  private:
@@ -40,11 +43,11 @@ class UdpChain {
   std::array<std::uint16_t, kChainProcesses> ports_{};
 };
 
-/// The work of one process of a chain over DDS.
+/// Main function of one process of a chain over DDS.
 void pass_over_dds(FloorBoard& board, const FloorOptions& options, bus::Vendor vendor, double phase,
                    std::size_t process);
 
-/// A thread wakes another one through a futex, and waits for the time of its wake-up.
+/// Measures the time from a futex wake call to the wake-up of a second thread.
 void wake_a_thread(FloorBoard& board, const FloorOptions& options);
 
 }  // namespace crane::cli

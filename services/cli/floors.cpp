@@ -50,7 +50,7 @@ void schedule(FloorBoard& board, int priority) {
   board.fifo = ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
 }
 
-/// Runs a role in a process of its own, which the kernel ends when this process ends.
+/// Runs a role in a child process, which the kernel ends when this process ends.
 pid_t start(FloorBoard& board, int priority, const Role& role) {
   const auto parent = ::getpid();
   const auto pid = ::fork();

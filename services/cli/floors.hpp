@@ -1,7 +1,8 @@
 #pragma once
-/// Floors of `crane bench tick`: what a tick costs without this project. Three chains of four processes pass
-/// the samples of one tick in a circle, over UDP sockets, Cyclone DDS and Fast DDS; a thread wakes another
-/// one through a futex. Each floor has its own time within the period, so that it does not delay the loop.
+/// Floors of `crane bench tick`: lower bounds of the latency of a tick, measured without code of this
+/// project. In three chains, four processes pass the samples of one tick in a ring, over UDP sockets, Cyclone
+/// DDS and Fast DDS. In a fourth floor, a thread wakes a second thread through a futex. Each floor runs in a
+/// separate part of the period, so that it does not delay the loop.
 #include <sys/types.h>
 
 #include <chrono>
@@ -17,7 +18,7 @@ namespace crane::cli {
 struct FloorOptions {
   runtime::BusOptions bus;
   std::int64_t period_ns = 10'000'000;
-  std::size_t ticks = 0;  ///< most ticks of a measurement
+  std::size_t ticks = 0;  ///< largest number of measured times per floor
   int priority = 0;       ///< SCHED_FIFO; 0: ordinary scheduling
 };
 

@@ -39,13 +39,13 @@ using StickRanges = std::array<StickRange, 3>;
 
 class GamepadLaw {
  public:
-  /// Smallest dead zone, as a share of half the range; a larger one of the driver replaces it. Sticks with 16
-  /// bits come to rest within 4096 of 32768 counts, although their drivers report 128 (Android, key layout of
-  /// the controller 0e6f:f501).
+  /// Smallest dead zone, as a share of half the range; a larger dead zone of the driver applies instead.
+  /// 16-bit sticks return to within 4096 of 32768 counts of the centre, although their drivers report 128
+  /// (Android, key layout of the controller 0e6f:f501).
   static constexpr double kDeadZone = 0.125;
   /// Longest time without an event. A gamepad reports only changes: silence with a deflected stick means a
-  /// still hand or a broken radio link. Equal to the time without a key that ends a session of the keyboard.
-  /// The value is chosen, not derived.
+  /// still hand or a broken radio link. The keyboard ends a session after the same time without a key. The
+  /// value is chosen, not derived.
   static constexpr double kSilence_s = 10;
 
   /// @pre problem_of(ranges, selected) is empty
@@ -58,8 +58,8 @@ class GamepadLaw {
   /// requested; the last event is at most kSilence_s old. After a longer silence, the operator must release
   /// the button and press it again.
   [[nodiscard]] bool engaged(double now_s) const;
-  /// Deflection of the selected axes, whether engaged() or not. 0 in the dead zone, ±1 at the ends of the
-  /// range, a tenth of it in micro-speed.
+  /// Deflection of the selected axes, independent of engaged(): 0 in the dead zone, ±1 at the ends of the
+  /// range, ±0.1 there in micro-speed.
   [[nodiscard]] std::array<double, 3> deflection() const;
   /// True when the dead-man's button is held, but the sticks have not been in their dead zones since it was
   /// pressed.
@@ -68,7 +68,7 @@ class GamepadLaw {
   [[nodiscard]] bool dead_man_pressed() const { return dead_man_pressed_; }
   /// True once after each press of BTN_SOUTH while the dead-man's button is held.
   bool take_return();
-  /// True from this press until take_return(), or until the dead-man's button is released.
+  /// True from the press of BTN_SOUTH until take_return(), or until the dead-man's button is released.
   [[nodiscard]] bool returns() const { return returns_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Loop of the interactive `crane jog`: a session while the stick is deflected; steps of inching and returns
-/// between sessions.
+/// Loop of the interactive `crane jog`: runs a session while the stick is deflected, and steps of inching and
+/// returns between sessions.
 #include <optional>
 
 #include "cli/jog_moves.hpp"

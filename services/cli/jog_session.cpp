@@ -24,7 +24,8 @@ Answer JogSession::begin(const std::array<bool, 3>& selected, const Patience& pa
   return answer;
 }
 
-/// A sample without the present tick is late for the supervisor, which then waits for a release of the stick.
+/// Waits for a state, because the supervisor treats a sample without a recent tick as late and then requires
+/// a release of the stick.
 void JogSession::await_state(double patience_s) {
   tick_ = 0;
   const auto arrived = [this] {

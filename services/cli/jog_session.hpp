@@ -1,5 +1,5 @@
 #pragma once
-/// Operator's side of a session of the stick: requests it, sends crane/jog, and measures the motion.
+/// Operator's side of a session of the stick: requests the session, sends crane/jog, measures the motion.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -44,7 +44,7 @@ class JogSession {
   [[nodiscard]] const Measured& measured() const { return measured_; }
 
  private:
-  static constexpr int kHoldTicks = 50;  // single ticks of HOLD occur between ticks of RUN
+  static constexpr int kHoldTicks = 50;  // more than one, because single ticks of HOLD occur during a motion
   void await_state(double patience_s);
   void receive_states();
   void receive();

@@ -7,7 +7,7 @@
 namespace crane::cli {
 namespace {
 
-// Consecutive ticks in HOLD at the end of a move. Single ticks of HOLD can occur between ticks of RUN.
+// Consecutive ticks in HOLD that end a move; more than one, because single ticks of HOLD occur during a move.
 constexpr int kSettledTicks = 50;
 
 [[noreturn]] void throw_stopped(const msg::SupervisorStatus& status) {

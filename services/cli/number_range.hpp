@@ -1,6 +1,6 @@
 #pragma once
-/// Check of a number on the command line. CLI::Range and CLI::PositiveNumber accept NaN, because a comparison
-/// with NaN is false.
+/// Validators of numbers on the command line. They replace CLI::Range and CLI::PositiveNumber, which accept
+/// NaN, because a comparison with NaN is false.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>

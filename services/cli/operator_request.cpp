@@ -9,7 +9,7 @@
 namespace crane::cli {
 namespace {
 
-/// First request id. It differs between tools that run at the same time, and between tools with the same pid.
+/// First request id of this process, which differs between simultaneous tools, also with the same pid.
 std::uint64_t first_id() {
   constexpr std::uint64_t kPidBits = 22, kPidMask = (1U << kPidBits) - 1;
   const auto now_us = static_cast<std::uint64_t>(runtime::monotonic_ns() / 1000);
@@ -75,9 +75,9 @@ class Conversation {
   }
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
-  /// Several processes read crane/request: the plant, the supervisor, recorders, dashboards. A request that
-  /// must not be repeated is sent only after the supervisor has answered a probe and, for a move or a
-  /// session of the stick, a sample of crane/reference has arrived.
+  /// True when the request can be sent. Many processes read crane/request: a matched reader does not prove
+  /// that the supervisor receives it. A request that must not be repeated therefore waits for the answer of
+  /// the supervisor to a probe; a move or a session of the stick also for a sample of crane/reference.
   bool found() {
     constexpr std::int64_t kProbeEvery_ns = 50'000'000;
     hear_supervisor();

@@ -28,10 +28,10 @@ struct Patience {
   double reply_s = 2;  ///< longest time for the reply
 };
 
-/// Stop and emergency stop are sent as soon as one process receives requests and one sends replies, and are
-/// repeated every 100 ms until they are answered. Any other request is sent once, after the supervisor has
-/// answered a probe; a move or a session of the stick also waits for a sample of crane/reference.
-/// @throws NoAnswer
+/// Sends the request and waits for the answer. A stop or emergency stop is sent as soon as crane/request has
+/// a reader and crane/reply a writer, and is repeated every 100 ms until the answer. Any other request is
+/// sent once, after the supervisor has answered a probe; a move or a session of the stick also waits for a
+/// sample of crane/reference. @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 
 /// Repeats the request `stop` every 20 ms until the supervisor answers. A stop signal to this program does

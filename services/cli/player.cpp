@@ -40,8 +40,8 @@ void OtherWriters::refuse_other_version() {
 Player::Player(const bus::Options& options, recording::McapReader& recording,
                const std::vector<const topics::Description*>& topics)
     : bus_{options}, recording_{recording}, others_{options} {
-  // Discovery between vendors takes up to a second. The player waits longer, because it must not stop a
-  // crane.
+  // Discovery between vendors takes up to a second. The player waits longer, because its writers would stop a
+  // crane that it has not discovered.
   constexpr std::int64_t kLook_ns = 2'000'000'000, kDiscovery_ns = 1'500'000'000;
   look_for_others(kLook_ns);
   for (const auto* topic : topics) {

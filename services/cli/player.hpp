@@ -1,6 +1,6 @@
 #pragma once
-/// Publishes the samples of a recording in their time, for the tools that read the bus. Only on a bus without
-/// a crane: a second writer of a loop topic stops a crane.
+/// Publishes the samples of a recording at their recorded intervals, for tools that read the bus. It requires
+/// a bus without a crane, because a second writer of a loop topic stops a crane.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -13,9 +13,9 @@
 
 namespace crane::cli {
 
-/// True for the topics that crane play may publish. A process executes requests and jog samples of any
-/// program. Processes accept samples of all other topics only from the sources of the topic, and the source
-/// of the player is none of these.
+/// True for the topics that crane play may publish: all except crane/request and crane/jog, which the stack
+/// accepts from any program. Readers of all other topics accept only the sources of the topic; the player has
+/// a different source.
 [[nodiscard]] bool may_play(const topics::Description& topic);
 
 /// Searches for other programs that write loop topics. One participant of each vendor searches, because
@@ -23,7 +23,7 @@ namespace crane::cli {
 class OtherWriters {
  public:
   explicit OtherWriters(const bus::Options& options);
-  /// Tells the search that one writer of this topic belongs to the player.
+  /// Declares that one writer of this topic belongs to the player.
   void except(const topics::Description& topic) { own_.insert_or_assign(topic.name, 1); }
   /// @return a loop topic with a writer of another program; nothing when there is none
   [[nodiscard]] std::optional<std::string> find() const;
@@ -55,10 +55,10 @@ class Player {
   /// @param rate  seconds of the recording per second
   /// @return false when another writer has appeared or a stop signal has arrived
   [[nodiscard]] bool play(const recording::Selection& selection, std::int64_t begin_ns, double rate);
-  /// Waits until the readers have received the last samples, because samples of an ended writer are lost.
+  /// Waits until the readers have received the last samples, because the end of a writer loses its samples.
   void finish() const;
 
-  /// A loop topic with another writer; nothing after a complete play() and after a signal.
+  /// Loop topic with a foreign writer, which ended play(); nothing otherwise.
   [[nodiscard]] const std::optional<std::string>& other_writer() const { return other_writer_; }
   [[nodiscard]] const PlayCounts& counts() const { return counts_; }
 

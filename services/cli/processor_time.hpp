@@ -11,11 +11,11 @@
 
 namespace crane::cli {
 
-/// Counts of the kernel for some threads, since their start (/proc/PID/task/TID/schedstat).
+/// Sum of the scheduler statistics of some threads since their start (/proc/PID/task/TID/schedstat).
 struct ThreadTime {
   std::int64_t running_ns = 0;
   std::int64_t waiting_ns = 0;  ///< ready to run, but no processor was free
-  std::int64_t runs = 0;        ///< times that a processor began to run a thread
+  std::int64_t runs = 0;        ///< number of times that a thread was scheduled
 };
 
 /// The first thread of a process of the stack is its loop.

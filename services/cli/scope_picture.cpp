@@ -13,7 +13,7 @@ using observation::Capture, observation::Field, observation::FieldTable;
 using recording::LeafType;
 
 constexpr std::size_t kLargestPanel = 10;  // rows of a curve
-// rows beside the panels: title, axis, its labels, name of the file, prompt
+// Rows besides the panels: title, time axis, labels of the axis, file name, prompt.
 constexpr std::size_t kFrame = 5;
 
 /// Unit on the screen: degrees instead of radians.

@@ -80,7 +80,7 @@ void append(std::vector<Perturbation>& all, const Sweep& sweep) {
                    [change = sweep.change, value](PlannedRun& plan) { change(plan, value); }});
 }
 
-/// Perturbations by a ratio, for displayed values in per cent.
+/// Converts a change by a ratio to a change by a displayed value in per cent.
 std::function<void(PlannedRun&, double)> percent(void (*change)(PlannedRun&, double)) {
   return [change](PlannedRun& plan, double value) { change(plan, 1 + value / 100); };
 }

@@ -10,7 +10,7 @@
 
 namespace crane::cli {
 
-/// One quantity with another than its nominal value.
+/// One quantity with a value that differs from its nominal value.
 struct Perturbation {
   std::string quantity;  ///< "cable_length", ...; empty: nominal run
   std::string unit;      ///< unit of `value`

@@ -159,8 +159,8 @@ std::vector<std::string> unheard(const Snapshot& snapshot) {
 }
 
 Snapshot listen(bus::Bus& bus, double timeout_s) {
-  // Recorder, twin and tools are optional: they are heard when nothing new has been heard for this time. With
-  // keys, a handshake precedes the discovery. The handshake is slow on a busy computer.
+  // Recorder, twin and tools are optional: the snapshot is complete when no new process has reported for this
+  // time. With keys, a handshake, which is slow on a busy computer, precedes the discovery.
   const std::int64_t quiet_ns = bus.options().credentials ? 1'500'000'000 : 300'000'000;
   auto nodes = bus.subscriber(topics::node);
   auto supervisors = bus.subscriber(topics::supervisor);
@@ -190,8 +190,8 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
 }
 
 Snapshot safety_state(bus::Bus& bus, double timeout_s) {
-  // A writer keeps up to 128 samples (1.3 s) for a reader that it has discovered, until the reader has
-  // discovered the writer. Then all of them arrive at once, the oldest first.
+  // A writer keeps up to 128 samples (1.3 s) for a reader that has not yet discovered it. These samples then
+  // arrive at once, the oldest first.
   constexpr std::int64_t kBacklog_ns = 300'000'000;
   std::optional<std::int64_t> first_ns;
   auto supervisors = bus.subscriber(topics::supervisor);

@@ -21,10 +21,10 @@ struct Snapshot {
 /// Processes of the loop that are missing from the snapshot: "plant or hardware_bridge", "tracking", ...
 [[nodiscard]] std::vector<std::string> unheard(const Snapshot& snapshot);
 
-/// Listens until three conditions hold, but at most for `timeout_s`: every process of the loop has reported;
+/// Listens until three conditions are true, at most for `timeout_s`: every process of the loop has reported;
 /// no further process has been discovered for 0.3 s, with keys 1.5 s; crane/state and crane/supervisor have
-/// arrived, and crane/twin and crane/adaptation if they have a writer.
-/// A network that loses packets can delay the discovery of one process by seconds.
+/// arrived, and crane/twin and crane/adaptation if they have a writer. Packet loss can delay the discovery of
+/// a process by seconds.
 [[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
 /// Listens to supervisor and state only, until 0.3 s after the first sample of both, at most for `timeout_s`.
 /// @return the newest samples

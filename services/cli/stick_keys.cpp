@@ -10,7 +10,7 @@ struct Sequence {
   std::size_t axis;
   double share;
 };
-/// xterm: arrows, page keys, and the same with shift.
+/// Escape sequences of xterm: arrow and page keys, without and with shift.
 constexpr std::array kSequences{Sequence{"\x1b[A", 0, 1},
                                 Sequence{"\x1b[B", 0, -1},
                                 Sequence{"\x1b[C", 1, 1},

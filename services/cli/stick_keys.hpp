@@ -13,9 +13,9 @@ namespace crane::cli {
 
 class StickKeys {
  public:
-  /// after the first press: longer than the time until the keyboard repeats the key
+  /// Time for which a key acts after its press: longer than the delay until the keyboard repeats the key.
   static constexpr double kFirst_s = 0.6;
-  static constexpr double kRepeat_s = 0.15;  ///< after a repetition
+  static constexpr double kRepeat_s = 0.15;  ///< time for which a key acts after a repetition
 
   /// Modes at the start; the keys m and i change them.
   explicit StickKeys(bool micro = false, bool inching = false) : micro_{micro}, inching_{inching} {}
@@ -24,15 +24,15 @@ class StickKeys {
   void take(std::string_view bytes, double now_s);
   /// Deflection of trolley, slew and hoist; 0 while inching is on.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
-  /// Time of the last key that deflects the stick; negative: the stick is released, because no such key
-  /// was pressed yet, or because the space bar or the key i or r has released it.
+  /// Time of the last key that deflected the stick; negative: the stick is released (no such key yet, or
+  /// released by the space bar, i or r).
   [[nodiscard]] double last_s() const { return last_s_; }
   [[nodiscard]] bool quits() const { return quits_; }
   [[nodiscard]] bool micro() const { return micro_; }
   [[nodiscard]] bool inching() const { return inching_; }
 
-  /// Step that a key requested while inching was on, once. The repetitions of a key that is held down request
-  /// no further step.
+  /// Takes the step that a key press requested while inching was on. A key that is held down requests one
+  /// step only.
   [[nodiscard]] std::optional<InchingStep> take_step() { return std::exchange(step_, std::nullopt); }
   /// True once after the key r. The key also releases the stick.
   [[nodiscard]] bool take_return() { return std::exchange(returns_, false); }

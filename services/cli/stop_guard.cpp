@@ -10,7 +10,7 @@
 namespace crane::cli {
 namespace {
 
-/// The main thread executes the handlers of all signals: a signal also ends its waits.
+/// Blocks all signals in this thread, so that the main thread executes the handlers and its waits end.
 class SignalsBlocked {
  public:
   SignalsBlocked() {

@@ -1,8 +1,7 @@
 #pragma once
-/// Ends a program that starts a stack and cannot obey a stop signal: its main thread waits, for example for
-/// the reader of its output (a full pipe, a terminal that has stopped), a disk or the service manager. The
-/// kernel then sends SIGTERM to the processes of the stack (ChildProcesses), and the bridge closes the
-/// brakes.
+/// Ends a program that has started a stack when its main thread does not react to a stop signal, because it
+/// is blocked by a full pipe, a paused terminal, a disk or the service manager. The kernel then sends SIGTERM
+/// to the processes of the stack (ChildProcesses), and the bridge closes the brakes.
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -11,14 +10,14 @@ namespace crane::cli {
 
 class StopGuard {
  public:
-  /// Longest time from the stop signal to stopping(). The main thread looks for the signal every 50 ms.
+  /// Longest time from the stop signal to stopping(). The main thread polls the signal every 50 ms.
   static constexpr std::chrono::milliseconds kPatience{500};
   /// Longest time from stopping() to the end of this object: the stop of the child processes takes at most 3
   /// s.
   static constexpr std::chrono::seconds kStopPatience{10};
 
   StopGuard();
-  /// The main thread begins to stop the stack.
+  /// Call when the main thread begins to stop the stack.
   void stopping() { stopping_ = true; }
 
  private:

@@ -8,11 +8,12 @@ namespace crane::cli {
 /// Box around the recorded positions of the hook, in coordinates of the ground.
 class TaughtBox {
  public:
-  /// @param suspension_height_m, cable_m  of the rig file; cable_m: a cable that is not measured, 0: measured
+  /// @param suspension_height_m  height of the jib above the ground, from the rig file
+  /// @param cable_m  constant cable length of the rig file; 0: the samples contain the measured length
   TaughtBox(double suspension_height_m, double cable_m)
       : suspension_height_m_{suspension_height_m}, cable_m_{cable_m} {}
-  /// Extends the box to the position of the end of the cable, (2.11) of H. M. Omar, Control of Gantry and
-  /// Tower Cranes. A sample with an unknown position or a value that is not finite counts as skipped.
+  /// Extends the box to the hook, at the end of the cable, (2.11) of H. M. Omar, Control of Gantry and Tower
+  /// Cranes. Skips and counts a sample with an unknown position or a value that is not finite.
   void add(const msg::State& state);
   [[nodiscard]] std::size_t samples() const { return samples_; }
   [[nodiscard]] std::size_t skipped() const { return skipped_; }

@@ -74,7 +74,7 @@ Screen::Screen() {
     settings_ = now;
     now.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     now.c_cc[VMIN] = now.c_cc[VTIME] = 0;
-    // Ctrl-Z does not suspend: the shell would keep the settings of the view.
+    // Switches off Ctrl-Z, because the shell would inherit the settings of the view.
     now.c_cc[VSUSP] = _POSIX_VDISABLE;
     ::tcsetattr(STDIN_FILENO, TCSANOW, &now);
   }

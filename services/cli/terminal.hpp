@@ -16,8 +16,8 @@ struct TerminalSize {
 /// Size of the terminal; 80 x 24 when standard output is not a terminal.
 [[nodiscard]] TerminalSize terminal_size();
 
-/// Writes a line of at most 512 bytes, or nothing while nobody reads the output (a full pipe, a paused
-/// terminal). A program that moves the crane therefore continues to read the keys that stop it.
+/// Writes a line of at most 512 bytes; discards the line while the output blocks (a full pipe, a paused
+/// terminal), so that a program that moves the crane continues to read the keys that stop the crane.
 void print_unless_blocked(int descriptor, std::string_view line);
 
 /// Characters of a UTF-8 text, each one column wide.

@@ -34,8 +34,8 @@ class Records {
   std::map<std::pair<std::uint64_t, std::uint64_t>, Published> by_tick_;
 };
 
-/// The input of this tick that arrived last: it ended the wait of the process. Nothing when an input is
-/// missing.
+/// @return input of this tick that arrived last and ended the wait of the process; nothing: an input is
+/// missing
 std::optional<Published> last_input(const Records& records, const runtime::ComponentSpec& process,
                                     const PathRecord& output) {
   std::optional<Published> last;
@@ -66,10 +66,11 @@ void add_seal(Hop& hop, std::int64_t seal_ns, double codec_share) {
   hop.parts_ns[static_cast<std::size_t>(Part::crc)] += seal_ns - codec_ns;
 }
 
-/// @param from    the published sample
-/// @param to      record of the process that received it
-/// @param begin_ns  begin of the hop: the end of the previous one
-/// @param joins   true: `to` joined the sample; false: the hop ends with the arrival
+/// @param from      published sample
+/// @param to        record of the process that received the sample
+/// @param begin_ns  start of the hop: end of the previous hop
+/// @param joins     true: `to` joined the sample; false: the hop ends with the arrival
+/// @return nothing when the time stamps are not in order
 std::optional<Hop> hop_between(const Published& from, const Published& to, std::int64_t begin_ns, bool joins,
                                const Isolated& isolated) {
   const auto& sent = *from.record;
@@ -83,7 +84,8 @@ std::optional<Hop> hop_between(const Published& from, const Published& to, std::
   };
   const double codec_share = isolated.codec_share[sent.topic];
   part(Part::law) = sent.published_ns - begin_ns;
-  if (sent.joined_ns > begin_ns) {  // only the first hop begins before its sender has all inputs
+  if (sent.joined_ns >
+      begin_ns) {  // first hop only: it starts at the latch, before the sender reads the board
     part(Part::board) = std::min(sent.joined_ns, sent.published_ns) - begin_ns;
     part(Part::law) -= part(Part::board);
   }

@@ -15,14 +15,14 @@ namespace crane::cli {
 /// Parts of a hop, in the order in which a sample passes them.
 enum class Part : std::uint8_t {
   board,     ///< bridge: from the latch to the end of the reading of the board
-  law,       ///< from the reading or the join to publish()
-  codec,     ///< encoding for the CRC, at both ends
-  crc,       ///< CRC, at both ends
-  write,     ///< the vendor's write, up to its end or to the arrival at the reader, whichever is first
-  kernel,    ///< kernel and wake-up: as long as a hop of the raw UDP chain, at most the rest of the delivery
-  vendor,    ///< rest of the delivery: the vendor's thread works or waits for a processor
-  handover,  ///< from the vendor's thread to the thread of the loop
-  take,      ///< the vendor's take
+  law,       ///< from the end of the reading, or from the join, to publish()
+  codec,     ///< encoding for the CRC, in writer and reader
+  crc,       ///< CRC, in writer and reader
+  write,     ///< DDS write, up to its return or to the arrival at the reader, whichever is first
+  kernel,    ///< kernel and wake-up: time of a hop of the raw UDP chain, at most the rest of the delivery
+  vendor,    ///< rest of the delivery: a DDS thread works or waits for a processor
+  handover,  ///< from the DDS thread to the thread of the loop
+  take,      ///< DDS take
   join       ///< rest of the poll until the inputs of the tick are complete
 };
 inline constexpr std::array kPartNames{
@@ -31,7 +31,7 @@ inline constexpr std::array kPartNames{
 inline constexpr std::size_t kParts = kPartNames.size();
 using PerPart = std::array<std::int64_t, kParts>;  ///< [ns]
 
-/// One hop: a process publishes a sample, and the next process of the path has taken and joined it.
+/// One hop: a process publishes a sample; the next process of the path takes the sample and joins its inputs.
 struct Hop {
   std::size_t from = 0, to = 0;  ///< processes, by their index in `processes`
   PerPart parts_ns{};
@@ -44,9 +44,9 @@ struct TickPath {
   std::vector<Hop> hops;
 };
 
-/// Times measured apart from the loop.
+/// Times that were measured outside the loop.
 struct Isolated {
-  std::array<double, topics::kAll.size()> codec_share{};  ///< of the sealing of a sample, by topic
+  std::array<double, topics::kAll.size()> codec_share{};  ///< encoding / sealing of a sample, by topic
   std::int64_t udp_hop_ns = 0;                            ///< one hop of the raw UDP chain
 };
 
@@ -56,7 +56,7 @@ struct TickBreakdown {
 };
 
 /// @param processes  components of the stack; the first is the clock master
-/// @param records    of each component, in the order of `processes`
+/// @param records    records of each component, in the order of `processes`
 [[nodiscard]] TickBreakdown break_down(const std::vector<runtime::ComponentSpec>& processes,
                                        const std::vector<std::vector<bus::PathRecord>>& records,
                                        const Isolated& isolated);

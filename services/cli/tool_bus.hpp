@@ -1,5 +1,5 @@
 #pragma once
-/// Shared by all commands that observe or operate a running crane.
+/// Bus of the commands that observe or operate a running crane.
 #include <cstdint>
 #include <functional>
 #include <string>

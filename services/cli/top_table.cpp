@@ -118,7 +118,7 @@ RankedTable processes(const TopModel& model, std::int64_t now_ns) {
   return table;
 }
 
-/// Topics that are shown: all, those with samples, those of the loop with samples.
+/// Shown topics: all, those with samples, loop topics with samples.
 enum class Shown : std::uint8_t { all, heard, loop };
 
 RankedTable topics_of(const TopModel& model, bool with_trends, Shown shown) {

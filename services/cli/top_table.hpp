@@ -11,7 +11,7 @@ namespace crane::cli {
 struct TopView {
   std::string title;                 ///< first line: crane and domain
   std::optional<TerminalSize> size;  ///< nothing: width and height are unlimited
-  bool trends = false;               ///< shows the last windows as a curve of blocks
+  bool trends = false;               ///< true: shows the last windows as a sparkline
 };
 /// State, largest swing, last fault, processes, topics. If the columns do not fit, the least important
 /// columns are omitted first. If the rows do not fit, topics without samples are omitted.

@@ -10,7 +10,7 @@
 namespace crane::cli {
 namespace {
 
-/// Set by a thread of the DDS vendor.
+/// Name of the QoS policy that did not match. A DDS thread sets it; the main thread reads it.
 class RefusedPolicy {
  public:
   void set(std::string_view policy) {
@@ -42,7 +42,7 @@ std::string why_silent(bus::Bus& bus, const bus::CdrSubscriber& subscriber, cons
                                         : "the topic is written only at events");
 }
 
-/// Prints the possible reason once when no sample arrives for a while.
+/// Prints the possible reason once when no sample arrives.
 class Hint {
  public:
   void give(const std::function<std::string()>& reason) {

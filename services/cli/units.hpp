@@ -20,7 +20,7 @@ class UnitError : public std::runtime_error {
 /// @return m, rad or s. @throws UnitError
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension);
 
-/// Parses a time of hours or days: as parse_quantity(), and with the units min, h and d. @return s
+/// Parses a long time: as parse_quantity(), and also with the units min, h and d. @return s
 /// @throws UnitError, also when the time is not positive
 [[nodiscard]] double parse_duration(std::string_view text);
 

@@ -28,7 +28,7 @@ struct GainsOptions {
 struct GainFigure {
   std::string figure, file, abscissa, x_label;
   std::string speed_name, swing_name;
-  double scale = 1;  ///< the picture shows K and the swing gain divided by this value
+  double scale = 1;  ///< divisor of K and of the swing gain in the picture
   GainCurve curve;
 };
 

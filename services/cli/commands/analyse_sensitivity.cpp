@@ -40,7 +40,7 @@ struct FilteredLoop {
   double ratio = 0;     ///< cut-off over sampling frequency, 0: no filter
   double delay_ms = 0;  ///< low-frequency delay of the filter
   analysis::Damping as_designed;
-  analysis::Damping shortened;  ///< damping with the delay of the law reduced by that of the filter
+  analysis::Damping shortened;  ///< damping when the delay of the law is shorter by the delay of the filter
 };
 
 std::vector<FilteredLoop> filtered_loops(const configuration::Rig& rig) {

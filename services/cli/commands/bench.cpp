@@ -44,8 +44,8 @@ Percentiles percentiles(std::vector<std::int64_t> values_ns) {
   return {at(0.5), at(0.99), at(1)};
 }
 
-/// Round trip of a datagram of the size of crane/state to a second thread, 100 times a second: two messages
-/// without DDS; the loop has four.
+/// Measures the round trip of a UDP datagram of the size of crane/state to a second thread, 100 times a
+/// second. A round trip has two messages; a tick of the loop has four.
 class UdpFloor {
  public:
   UdpFloor() : near_{open()}, far_{open()} {

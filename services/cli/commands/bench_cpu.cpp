@@ -35,7 +35,7 @@ std::vector<ProcessShare> measure(const MeasuredStack& options) {
   {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
     stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
-  }  // ends the observer here, because the observer would use processor time during the measurement
+  }  // ends the observer, which would use processor time during the measurement
   const ProcessorTimes processor{children, specs};
   const auto begin_ns = runtime::monotonic_ns();
   pass(children, options.seconds);

@@ -1,5 +1,5 @@
-/// crane bench diagnosis: scores the diagnosis with hidden effects. It runs a separate program of the tests,
-/// because the code that generates the data must share no code with the diagnosis.
+/// crane bench diagnosis: scores the diagnosis on data with hidden effects. A separate program of the tests
+/// generates the data, because the generator must share no code with the diagnosis.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

@@ -27,7 +27,7 @@ struct FleetOptions {
   bool in_process = false, one_by_one = false, own_domains = false, json = false;
 };
 
-/// What the fleet did between the moment when all cranes moved and the end.
+/// Result of one crane, from the time at which all cranes moved to the end.
 struct CraneResult {
   std::string name;
   std::optional<double> start_up_s;
@@ -77,7 +77,7 @@ class FleetRun {
   }
 
  private:
-  static constexpr double kPatience_s = 60;  // for all cranes to start, and for all to move
+  static constexpr double kPatience_s = 60;  // longest wait for all cranes to start, and to move
 
   static CraneResult result(const FleetCrane& before, const CraneUse& use, const FleetCrane& crane,
                             double ticks) {
@@ -132,7 +132,8 @@ class FleetRun {
     children_.start("viewer " + std::to_string(number + 1), "crane", arguments);
   }
 
-  /// Waits until `condition` holds for every crane. @throws std::runtime_error that names the others
+  /// Waits until `condition` is true for every crane. @throws std::runtime_error that names the cranes for
+  /// which it is false
   template <class Condition>
   void wait_for(const std::string& problem, const Condition& condition) {
     if (wait_until([&] { return std::ranges::all_of(cranes(), condition); }, kPatience_s)) return;
@@ -142,7 +143,7 @@ class FleetRun {
     throw std::runtime_error(problem + " within " + fixed(kPatience_s, 0) + " s: " + names);
   }
 
-  /// Operates the cranes until `condition` holds. @return false when it does not within `patience_s`
+  /// Operates the cranes until `condition` is true. @return false at the timeout `patience_s`
   template <class Condition>
   bool wait_until(const Condition& condition, double patience_s) {
     const auto deadline_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(patience_s * 1e9);

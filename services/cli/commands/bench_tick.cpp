@@ -26,7 +26,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Shortest mean time of a call, over some batches: other programs delay some of the batches.
+/// Mean time of a call in ns, of the fastest batch, because other programs delay some batches.
 template <class Work>
 double call_ns(const Work& work) {
   constexpr int kBatches = 50, kCalls = 200;
@@ -39,8 +39,8 @@ double call_ns(const Work& work) {
   return least_ns;
 }
 
-/// Encoding of a sample as a share of its sealing (encoding and CRC), by topic: the real code on the sample
-/// types of the loop.
+/// Share of the encoding in the sealing (encoding and CRC) of a sample, by topic. Measured with the code and
+/// the types of the loop.
 std::array<double, topics::kAll.size()> codec_shares() {
   std::array<double, topics::kAll.size()> shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -110,9 +110,9 @@ TickBench measure(const MeasuredStack& options) {
   {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
     stack::wait_until_ready(children, bench.processes, bus, 15s);
-  }  // ends the observer here, because the observer would use processor time during the measurement
+  }  // ends the observer, which would use processor time during the measurement
   floors.wait_until_ready(15s);
-  constexpr double kSettle_s = 0.5;  // after discovery and start-up
+  constexpr double kSettle_s = 0.5;  // not measured: discovery and start-up
   collect(children, stamps, kSettle_s);
   const auto& states = stamps.take().front();
   if (states.empty()) throw std::runtime_error("no tick within 0.5 s; check the load of this computer");

@@ -1,7 +1,7 @@
 #pragma once
-/// The commands of `crane`, one file and one line each. A command registers its options. The command on the
-/// command line stores its action in `chosen`. The action returns the exit code; main() reports its
-/// exceptions.
+/// The commands of `crane`, one file and one line each. Each function registers a command and its options.
+/// Parsing stores the action of the given command in `chosen`. The action returns the exit code; main()
+/// reports its exceptions.
 #include <functional>
 
 #include "crane/runtime/process.hpp"

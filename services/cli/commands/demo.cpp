@@ -40,8 +40,7 @@ struct DemoOptions {
 void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
   const auto here = runtime::positions(state);
-  // m, rad: an axis that is nearer to the start of the scenario is not moved
-  constexpr double kAtStart = 0.005;
+  constexpr double kAtStart = 0.005;  // m, rad: a nearer axis does not move
   std::array<bool, 3> selected{};
   std::array<double, 3> target{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -31,7 +31,7 @@ struct DiagnoseOptions {
   bool json = false, no_picture = false, check = false, progress = false;
 };
 
-/// Progress in one line of the terminal.
+/// Shows the progress in one line of the terminal.
 void show_share(double share, const std::string& what) {
   constexpr std::size_t kBar = 30, kText = 48;
   const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * kBar);

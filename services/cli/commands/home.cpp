@@ -26,7 +26,7 @@ class Watch {
   explicit Watch(bus::Bus& bus)
       : bus_{bus}, statuses_{bus.subscriber(topics::supervisor)}, states_{bus.subscriber(topics::state)} {}
 
-  /// @return false at the timeout
+  /// Waits until `holds` returns true. @return false at the timeout
   bool until(double timeout_s,
              const std::function<bool(const msg::SupervisorStatus&, const msg::State&)>& holds) {
     const bool reached = wait_until(bus_, timeout_s, [&] {
@@ -85,8 +85,7 @@ void follow(Watch& watch, std::size_t axis, double timeout_s) {
         "home: not complete before the timeout; the crane continues to move (stop it with `crane stop`)");
 }
 
-/// Resets the stop after the homing of the previous axis, as soon as the cause of the stop has been inactive
-/// for a second.
+/// The homing of an axis ends with a stop. Resets this stop when its cause has been inactive for a second.
 void acknowledge(bus::Bus& bus, Watch& watch) {
   constexpr double kStops_s = 5;
   constexpr int kTries = 20;

@@ -15,9 +15,9 @@ namespace crane::cli {
 
 struct BoardOptions {
   std::string rig;
-  std::string wired_as;  ///< emulated board: rig file of the emulated crane's wiring; empty: `rig`
-  std::string
-      crane;  ///< emulated board: name of a running crane_emulated_rig; empty: emulated in this process
+  std::string wired_as;  ///< emulated board: rig file with the wiring of the emulated crane; empty: `rig`
+  /// emulated board: name of a running crane_emulated_rig; empty: emulated in this process
+  std::string crane;
   std::uint32_t domain = 0;
 };
 void add_board_options(CLI::App& command, BoardOptions& options);

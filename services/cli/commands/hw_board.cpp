@@ -13,7 +13,7 @@
 namespace crane::cli {
 namespace {
 
-/// Sleeps from tick to tick; ticks that were missed during a question are skipped.
+/// Sleeps until the next tick; skips the ticks that passed while the program waited for an answer.
 std::function<void(std::int64_t)> sleeping() {
   return [next_ns = std::int64_t{0}](std::int64_t duration_ns) mutable {
     next_ns = std::max(next_ns, runtime::monotonic_ns() - duration_ns) + duration_ns;

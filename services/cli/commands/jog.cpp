@@ -21,8 +21,8 @@ struct JogOptions {
   std::array<bool, 3> selected{};
   double for_s = 1;
   StickOptions stick;
-  std::optional<std::string> gamepad;                ///< device; empty: the only one; nothing: none
-  std::vector<std::string> axes{"trolley", "slew"};  ///< of keyboard and gamepad
+  std::optional<std::string> gamepad;                ///< device; "": the only gamepad; nothing: no gamepad
+  std::vector<std::string> axes{"trolley", "slew"};  ///< axes of keyboard and gamepad
 };
 
 void print_axes(const char* what, const Measured& measured) {

@@ -12,8 +12,8 @@ struct StickOptions {
   std::array<bool, 3> selected{};  ///< axes of a session and of inching
   bool micro = false;              ///< micro-speed at the start
   bool inching = false;            ///< inching at the start
-  double step_m = kInchingStep_m;
-  double timeout_s = 60;  ///< longest wait for rest
+  double step_m = kInchingStep_m;  ///< step of inching
+  double timeout_s = 60;           ///< longest wait for rest
   runtime::BusOptions bus = tool_bus();
 };
 

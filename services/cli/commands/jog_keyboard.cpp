@@ -14,9 +14,9 @@
 namespace crane::cli {
 namespace {
 
-/// Switches off echo and line editing of the terminal. Ctrl-C still ends the program. Suspending is switched
-/// off, because a suspended program would leave these settings to the shell. Ctrl-S is switched off: on a
-/// paused terminal the operator would see no messages.
+/// Switches off echo and line editing of the terminal; Ctrl-C still ends the program. Also switches off
+/// Ctrl-Z, because the shell would inherit these settings, and Ctrl-S, because a paused terminal would show
+/// no messages.
 class RawTerminal {
  public:
   RawTerminal() {

@@ -21,7 +21,7 @@ std::string seconds(std::int64_t time_ns, std::int64_t zero_ns) {
   return fixed(static_cast<double>(time_ns - zero_ns) * 1e-9, 3) + " s";
 }
 
-/// Samples that the recorder did not record: topic, number, cause, times since the first sample.
+/// Prints the samples that the recorder did not record: topic, number, cause, times since the first sample.
 void print_losses(const std::vector<recording::Loss>& losses, std::int64_t zero_ns) {
   for (const auto& loss : losses)
     std::cout << "missing: " << loss.topic << ": " << loss.samples
@@ -66,7 +66,7 @@ int info(const LogOptions& options) {
   for (const auto& attachment : found["attachments"])
     lines.push_back("attachment " + attachment["name"].get<std::string>() + ", " +
                     attachment["bytes"].dump() + " bytes");
-  print_once(lines);  // parts repeat them
+  print_once(lines);  // every part of a recording contains them
   note_other_version(recording);
   print_log_problems(recording.problems());
   return runtime::kExitDone;

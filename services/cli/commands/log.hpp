@@ -22,12 +22,12 @@ struct LogOptions {
 using LogAction = int (*)(const LogOptions&);
 using SharedLogOptions = std::shared_ptr<LogOptions>;
 
-/// Reports a recording of another message version. Its topics are decoded with the types that it contains.
+/// Reports a recording of another message version, whose topics are decoded with the types in the recording.
 void note_other_version(const recording::McapReader& recording);
 void print_log_problems(const std::vector<std::string>& problems);
 
-/// A file that is not a recording, or that must not be merged with the others, gives the exit code of a wrong
-/// argument.
+/// Runs the action. @return exit code; that of a wrong argument when a file is no recording, or cannot be
+/// merged with the others
 int run_log_action(LogAction action, const LogOptions& options);
 
 /// Adds a command with one recording as argument.

@@ -26,7 +26,7 @@ struct PlayOptions {
 
 using Topics = std::vector<const topics::Description*>;
 
-/// The wanted topics, by default those with samples in the recording.
+/// The topics of --topic; by default all topics with samples in the recording.
 Topics played_topics(const PlayOptions& options, const recording::McapReader& recording) {
   std::vector<std::string> problems;
   for (const auto* topic : options.topics)
@@ -69,8 +69,8 @@ Window window_of(const PlayOptions& options, recording::McapReader& recording, c
 }
 
 bus::Options player_bus(const PlayOptions& options) {
-  // SOURCE_OPERATOR in the options: on an open network, the rule for writing programs applies. SOURCE_MONITOR
-  // in the samples: no process accepts them.
+  // SOURCE_OPERATOR applies the rule of writing programs on an open network. SOURCE_MONITOR in the samples
+  // ensures that no process accepts them.
   auto bus = runtime::bus_options(options.bus, "crane_play", crane_SOURCE_OPERATOR, runtime::random_epoch());
   bus.source = crane_SOURCE_MONITOR;
   return bus;

@@ -62,7 +62,7 @@ replay::Result result_of(const ReplayOptions& options) {
   return replay::replay_in_processes(options.file, processes);
 }
 
-/// What the replay has not compared, and why.
+/// Prints the samples and ticks that the replay did not compare, and the reasons.
 void print_remarks(const replay::Result& found) {
   print_problems(found.problems);
   if (!found.problems.empty())

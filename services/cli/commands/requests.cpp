@@ -1,4 +1,4 @@
-/// crane reset, arm, disarm, stop, estop: one request each.
+/// crane reset, arm, disarm, stop, estop: each command sends one request.
 #include <CLI/CLI.hpp>
 #include <memory>
 

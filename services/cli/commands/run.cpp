@@ -47,7 +47,7 @@ Names every_controller() {
   return names;
 }
 
-/// The rig of one scenario and its runs.
+/// Loads the rig of one scenario and adds its runs to `plans`.
 void add_plans(const std::string& name, const RunOptions& options,
                std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
@@ -80,7 +80,7 @@ std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
   return plans;
 }
 
-/// Names that the user or the scenario has chosen; empty for defaults.
+/// Name of the output directory: scenario, controller unless it is the default, variant if any.
 std::string directory_name(const RunOptions& options, const experiments::PlannedRun& plan) {
   const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
   return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
@@ -142,7 +142,7 @@ int run_each(const RunOptions& options, const std::vector<experiments::PlannedRu
   return completed ? runtime::kExitDone : runtime::kExitFailed;
 }
 
-/// In real time, options that need a simulation are refused.
+/// Refuses options that need a simulation.
 void require_possible_in_realtime(const RunOptions& options,
                                   const std::vector<experiments::PlannedRun>& plans) {
   std::vector<std::string> problems;

@@ -60,7 +60,7 @@ class Scope {
     return (!options_.repeats() && captures_ > 0) || (screen_ && screen_->quit_requested());
   }
 
-  /// The end of the data. @return exit code
+  /// Call at the end of the data. @return exit code
   int finish() {
     if (!finished()) rows_.finish();
     if (!finished())
@@ -166,7 +166,7 @@ int live(const ScopeOptions& options) {
   return scope.finish();
 }
 
-/// Wrong names, expressions and files have the exit code of a wrong argument.
+/// @return exit code; that of a wrong argument for wrong names, expressions and files
 int scope(const ScopeOptions& options) {
   try {
     return options.file.empty() ? live(options) : from_recording(options);

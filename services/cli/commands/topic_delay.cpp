@@ -37,7 +37,7 @@ void show(const std::vector<double>& delays_us, bool json) {
               << fixed(found->max, 0) << "  samples " << delays_us.size() << std::endl;
 }
 
-/// True for a negative or very long delay, which indicates time stamps of another clock.
+/// Warns when the median is negative or longer than kOldest_us: the time stamps are then from another clock.
 void warn_of_other_clock(const std::vector<double>& delays_us) {
   constexpr double kOldest_us = 60e6;
   const auto median_us = percentile(delays_us, 0.5);

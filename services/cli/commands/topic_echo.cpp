@@ -47,7 +47,7 @@ int echo(const TopicEchoOptions& options) {
   return runtime::kExitDone;
 }
 
-/// Checks the field name before the first sample; a wrong name would print nothing.
+/// Checks the field name before the first sample, because a wrong name would print nothing.
 void check_field(const TopicEchoOptions& options) {
   if (options.field.empty()) return;
   std::string known;

@@ -45,7 +45,7 @@ std::vector<Line> observe(bus::Bus& bus, double window_s) {
   });
   for (auto& line : lines) {
     line.window = line.statistics.take_window();
-    // all other topics have several writers, and samples that were published before the start of this process
+    // Other topics may have several writers, and samples from before the start of this process: no rate.
     if (!line.subscriber.topic().every_tick) line.window.rate_hz.reset();
   }
   return lines;

@@ -60,8 +60,7 @@ void start_black_box(stack::ChildProcesses& children, const UpOptions& options) 
   children.start("black_box", "crane", arguments);
 }
 
-/// @return the function that is missing after the end of a process outside the control loop; empty: the
-/// process is part of the loop
+/// @return function that is missing after `process` has ended; empty: the process belongs to the loop
 std::string goes_without(const std::string& process) {
   if (process == "recorder") return "a recording";
   if (process == "black_box") return "its black box";
@@ -69,8 +68,8 @@ std::string goes_without(const std::string& process) {
   return process == "dashboard" ? "its dashboard" : "";
 }
 
-/// Starts the dashboard and restarts it after its end. A dashboard that ends immediately after its start is
-/// not restarted, because it would end again.
+/// Starts the dashboard and restarts it after its end; not when it ran for less than a second, because it
+/// would end again.
 class DashboardKeeper {
  public:
   DashboardKeeper(stack::ChildProcesses& children, const UpOptions& options)

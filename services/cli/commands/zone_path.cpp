@@ -53,7 +53,8 @@ void print_legs(const control::PathSpace& space, const plant::PerAxis& from, con
   std::cout << "reference: " << fixed(route.duration_s(), 2) << " s without shaping\n";
 }
 
-/// The supervisor accepts targets in the same range. @throws configuration::ConfigurationError
+/// Checks the targets against the range that the supervisor accepts. @throws
+/// configuration::ConfigurationError
 void require_in_limits(const PathOptions& options, const configuration::Rig& rig,
                        const control::PathSpace& space) {
   std::vector<std::string> problems;
