@@ -7,7 +7,7 @@ namespace crane::services {
 namespace {
 
 using runtime::Context;
-constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick / period
+constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick, share of the period
 
 class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:

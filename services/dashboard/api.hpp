@@ -21,9 +21,9 @@ class Api {
       std::function<void(const stack::OperatorRequest&, Answered)> send, std::function<ServerCounts()> counts,
       const RunsOptions& runs);
 
-  /// Calls `answer` exactly once: at once, or when the supervisor has answered.
+  /// Calls `answer` exactly once: immediately, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
-  /// True for a stop that this visitor may request without a token or with a wrong one.
+  /// True for a stop that this visitor may request without a token or with a wrong token.
   [[nodiscard]] bool is_permitted_stop(const ApiRequest& request) const;
   /// Starts waiting jobs and collects finished ones.
   void poll() { runs_.poll(); }

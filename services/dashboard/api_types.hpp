@@ -19,9 +19,9 @@ struct ApiAnswer {
   unsigned status = 200;
   std::string media_type = "application/json";
   std::string body;
-  std::string_view file{};  ///< not empty: bytes that live as long as the program; `body` is then unused
-  bool report = false;      ///< true: a page with scripts; sent with the policy `sandbox`, so that it cannot
-                            ///< access the dashboard
+  std::string_view file{};  ///< not empty: static bytes that replace `body`
+  /// true: a page with scripts, sent with the policy `sandbox`, so that it cannot access the dashboard
+  bool report = false;
 };
 
 [[nodiscard]] ApiAnswer json_answer(const nlohmann::ordered_json& json, unsigned status = 200);

@@ -1,5 +1,5 @@
 #pragma once
-/// A child process that computes for the page at the lowest priority. The kernel enforces its limits of time,
+/// A child process of lowest priority that computes for the page. The kernel enforces its limits of time,
 /// memory and file size.
 #include <sys/types.h>
 

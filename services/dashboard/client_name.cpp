@@ -28,7 +28,7 @@ void put(__be32* words, const asio::ip::address& address) {
   }
 }
 
-/// Asks the kernel (sock_diag(7)) for the user who owns the socket with these two ends.
+/// Asks the kernel (sock_diag(7)) for the user id that owns the socket with these two endpoints.
 std::optional<std::uint32_t> owner_of(const Endpoint& own, const Endpoint& other) {
   struct {
     nlmsghdr header;

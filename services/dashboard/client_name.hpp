@@ -6,9 +6,9 @@
 
 namespace crane::dashboard {
 
-/// @return a foreign client for every address outside the loop-back. Users of this computer are distinguished
-/// when the kernel knows the owner of the other end; otherwise all of them are one client. Computers of one
-/// IPv6 network (64 bits) are one client, because one computer can use all addresses of its network.
+/// @return a foreign client for an address outside the loop-back; otherwise one client per user of this
+/// computer, or one client for all users when the kernel does not know the owner of the other end. All
+/// computers of one IPv6 network (64 bits) are one client, because one computer can use all its addresses.
 [[nodiscard]] Client client_of(const boost::asio::ip::tcp::socket& socket);
 
 }  // namespace crane::dashboard

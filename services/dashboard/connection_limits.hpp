@@ -9,20 +9,21 @@
 
 namespace crane::dashboard {
 
-/// Largest number of connections of other computers, and of this computer. Neither side can therefore keep
-/// out the other one. A browser opens seven connections.
+/// Largest number of connections of other computers together, and of this computer. Foreign connections thus
+/// cannot exclude local ones, and vice versa. A browser opens seven connections.
 inline constexpr std::size_t kMostOfOneSide = 48;
 inline constexpr std::size_t kMostConnections = 2 * kMostOfOneSide;
-/// Largest number of viewers of one side. The remaining connections can always be displaced (server.hpp).
+/// Largest number of viewers of one side. The remaining connections of this side can always be displaced
+/// (server.hpp).
 inline constexpr std::size_t kMostViewers = 32;
 /// Largest number of bytes of long answers that clients have not read yet: four times the longest history of
 /// a topic.
 inline constexpr std::size_t kMostAnswers_bytes = 32U << 20U;
-/// A shorter answer is always permitted: an operator receives the answer to a request even while other
-/// clients do not read their answers. The number of connections bounds these answers to 6 MB.
+/// A shorter answer is always permitted, so that an operator receives answers while other clients do not read
+/// theirs. The number of connections bounds the sum of these answers to 6 MB.
 inline constexpr std::size_t kShortAnswer_bytes = 64U << 10U;
 
-/// Those who share the connections fairly: one computer, or one user of this computer.
+/// Unit of the fair share of connections: another computer, or one user of this computer.
 struct Client {
   bool foreign = false;  ///< true: on another computer
   std::string name;      ///< IPv4 address, network of an IPv6 address (64 bits), or user
@@ -37,17 +38,17 @@ class ConnectionLimits {
   [[nodiscard]] bool has_place(const Client& client, Kind kind) const;
   [[nodiscard]] std::size_t open(const Client& client, Kind kind) const;
   [[nodiscard]] std::size_t open() const;
-  /// @return true when a client that needs a place may take one from `holder`, a client of the same side: the
-  /// holder has more. With n clients on one side, none loses any of its first 48/n connections.
+  /// @return true when `to` may take a place from `holder`: both are on the same side, and the holder has
+  /// more. With n clients on one side, none loses any of its first 48/n connections.
   [[nodiscard]] bool must_yield(const Client& holder, const Client& to, Kind kind) const;
 
   void add(const Client& client, Kind kind) { ++open_[client].of(kind); }
   void remove(const Client& client, Kind kind);
 
-  /// @return false when too many bytes wait; the new bytes are then not counted
+  /// Counts `bytes` of an unread answer. @return false, without counting, when too many bytes wait
   [[nodiscard]] bool reserve(std::size_t bytes);
   void free(std::size_t bytes) { answers_bytes_ -= bytes; }
-  /// @return true when as many more bytes may wait
+  /// @return true when reserve(bytes) would succeed
   [[nodiscard]] bool has_room(std::size_t bytes) const {
     return answers_bytes_ + bytes <= kMostAnswers_bytes;
   }
@@ -73,7 +74,7 @@ class Admission {
   [[nodiscard]] const Client& client() const { return client_; }
   /// The connection becomes a viewer.
   void become_viewer();
-  /// Replaces the reservation. @return false when the answer must not be stored
+  /// Replaces the reservation of the previous answer. @return false when the new answer must not be stored
   [[nodiscard]] bool reserve(std::size_t bytes);
 
  private:

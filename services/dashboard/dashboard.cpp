@@ -20,8 +20,7 @@
 namespace crane::dashboard {
 namespace {
 
-/// With this niceness, a control loop without real-time priority precedes a dashboard that many clients keep
-/// busy.
+/// Nice value that keeps a busy dashboard from delaying a control loop without real-time priority.
 constexpr int kNiceness = 10;
 
 void check_address(const std::string& listen) {

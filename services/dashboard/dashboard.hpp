@@ -25,7 +25,8 @@ void add_options(CLI::App& app, Options& options);
 /// Runs until a stop signal. @return exit code. @throws ConfigurationError, std::runtime_error
 int run(const Options& options);
 
-/// Starts crane_dashboard as a child, on the vendor of the tools; it prints its address when it is ready.
+/// Starts crane_dashboard as a child process with the DDS vendor of the tools. The child prints its address
+/// when it is ready.
 void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
             const std::string& runs, unsigned short port);
 

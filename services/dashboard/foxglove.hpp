@@ -14,9 +14,8 @@
 
 namespace crane::dashboard {
 
-/// Sub-protocols of the WebSocket. The sub-protocol of the page puts many messages into one frame: a separate
-/// frame for each of a thousand samples per second would cost browser and dashboard more time than the
-/// samples.
+/// Sub-protocols of the WebSocket. The sub-protocol of the page puts many messages into one frame, because
+/// a thousand frames per second would cost browser and dashboard more time than their samples.
 inline constexpr std::string_view kViewerProtocol = "foxglove.websocket.v1";
 inline constexpr std::string_view kPageProtocol = "crane.batch.v1";
 

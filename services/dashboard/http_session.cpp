@@ -28,7 +28,7 @@ constexpr const char* kContentRules =
     "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// A report contains inline scripts. Its origin differs from that of the dashboard, so that the report cannot
+/// A report contains inline scripts. The sandbox gives the report another origin, so that its scripts cannot
 /// read from or send to the dashboard.
 constexpr const char* kReportRules =
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src "
@@ -66,8 +66,8 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
   }
 
  private:
-  /// Compares the token of the request once, and counts a wrong one at once: an attacker who disconnects
-  /// before the answer cannot guess more often.
+  /// Compares the token of the request once and counts a wrong token immediately, so that an attacker who
+  /// disconnects before the answer cannot guess more often.
   void judge_token() {
     token_ignored_ = token_wrong_ = false;
     if (!admission_ || !parser_->is_header_done() || visitor().token.empty()) return;
@@ -100,8 +100,8 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
 
   void was_read(error_code error) {
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
-    // A wrong token is answered before any other error: an immediate refusal of the body would reveal that
-    // the token is wrong. A stop that needs no token reveals nothing.
+    // The delayed answer to a wrong token precedes any other error, because an immediate refusal would reveal
+    // that the token is wrong. A stop that needs no token reveals nothing.
     if (token_wrong_ && (error || !server_.api().is_permitted_stop(api_request()))) return answer_guess();
     if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
     if (error == http::error::body_limit)
@@ -198,7 +198,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     response_->set("Content-Security-Policy", answer_.report ? kReportRules : kContentRules);
     if (!head_only) response_->body() = {bytes.data(), bytes.size()};
     response_->content_length(bytes.size());
-    stream_.expires_after(kRequestPatience * 3);  // longest time in which a slow client may load the page
+    stream_.expires_after(kRequestPatience * 3);  // longest time for a slow client to load the page
     http::async_write(stream_, *response_, [self = shared_from_this(), keep](error_code error, std::size_t) {
       if (error || !keep) return self->close();
       self->read();
@@ -210,7 +210,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   }
 
-  /// While this object exists, no other upload can begin.
+  /// Holds the permission for the one upload at a time.
   struct Upload {
     explicit Upload(Server& of) : server{of} {}
     ~Upload() { server.end_upload(); }

@@ -1,6 +1,6 @@
 #pragma once
-/// Reviews and diagnoses that the page has requested. Each job is a bounded child process; one job runs, the
-/// others wait.
+/// Reviews and diagnoses that the page has requested. Each job is a child process with limits; one job runs
+/// at a time.
 #include <deque>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -58,7 +58,7 @@ class Jobs {
   struct Job {
     std::uint64_t id = 0;
     const char* kind = "";
-    std::string key;  ///< equal for a review of the same file
+    std::string key;  ///< equal for reviews of the same file, which share one job
     std::vector<std::string> runs, arguments;
     Bounds bounds;
     State state = State::waiting;

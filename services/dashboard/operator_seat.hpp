@@ -1,6 +1,6 @@
 #pragma once
-/// The permission to operate, for one client at a time: the client that takes the seat gets a key; all other
-/// clients may only watch. Pure; time is an argument.
+/// The permission to operate, held by one client at a time. A client that takes the seat gets a secret key;
+/// all other clients may only watch. Pure; time is an argument.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,14 +10,14 @@ namespace crane::dashboard {
 
 class OperatorSeat {
  public:
-  /// A holder that is silent for this time loses the seat. The browser of the holder renews the seat every 3
-  /// s, so that two messages may be lost.
+  /// A holder that is silent for this time loses the seat. The browser renews the seat every 3 s, so that two
+  /// lost messages have no effect.
   static constexpr std::int64_t kHeldFor_ns = 10'000'000'000;
   static constexpr std::size_t kLongestName = 32;
 
   /// Takes the free seat. @param key  new secret key. @return false when another client holds the seat
   bool take(std::string_view name, std::string key, std::int64_t now_ns);
-  /// Restarts the time of the seat. @return true when `key` holds the seat
+  /// Restarts kHeldFor_ns. @return true when `key` holds the seat
   bool renew(std::string_view key, std::int64_t now_ns);
   /// @return true when `key` held the seat
   bool release(std::string_view key, std::int64_t now_ns);

@@ -1,5 +1,5 @@
 #pragma once
-/// Limits how much each client does within one second. Pure: the time is an argument.
+/// Limits the amount (tokens, bytes) per client within kRateWindow. Pure: the time is an argument.
 #include <chrono>
 #include <cstddef>
 #include <deque>
@@ -14,8 +14,8 @@ inline constexpr std::chrono::milliseconds kGuessDelay{1000};
 /// Largest number of wrong tokens of one client within kRateWindow. The page sends at most seven requests at
 /// the same time.
 inline constexpr std::size_t kMostGuesses = 8;
-/// Bytes of histories after which one client must wait: the histories of all topics, which the page may
-/// request at the same time. To build 8 MB takes about 10 ms.
+/// Bytes of histories within kRateWindow after which one client must wait: the histories of all topics, which
+/// the page requests together. Building 8 MB takes about 10 ms.
 inline constexpr std::size_t kMostHistory_bytes = 32U << 20U;
 inline constexpr std::chrono::milliseconds kRateWindow{1000};
 
@@ -24,7 +24,7 @@ class RateLimit {
   using Time = std::chrono::steady_clock::time_point;
   explicit RateLimit(std::size_t most) : most_{most} {}
 
-  /// @return true when the client has done less than the limit within kRateWindow
+  /// @return true when the sum of count() of the client within kRateWindow is below the limit
   [[nodiscard]] bool permits(const Client& client, Time now);
   void count(const Client& client, Time now, std::size_t amount = 1);
 

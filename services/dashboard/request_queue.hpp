@@ -28,7 +28,7 @@ class RequestQueue {
     Answered answered;
   };
   std::optional<RequestSender> sender_;
-  Inbox<Queued> queue_{kMostConnections};  ///< at most one per connection, so that none is refused
+  Inbox<Queued> queue_{kMostConnections};  ///< never full: at most one request per connection
 };
 
 }  // namespace crane::dashboard

@@ -12,9 +12,8 @@
 namespace crane::dashboard {
 namespace {
 
-constexpr std::int64_t kPatience_ns =
-    2'000'000'000;                                ///< longest wait for an answer, as in the `crane` commands
-constexpr std::int64_t kRepeat_ns = 100'000'000;  ///< a stop is repeated until it is answered
+constexpr std::int64_t kPatience_ns = 2'000'000'000;  // longest wait for an answer, as in the commands
+constexpr std::int64_t kRepeat_ns = 100'000'000;      // period of the repetition of an unanswered stop
 
 }  // namespace
 
@@ -66,8 +65,8 @@ void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
   if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
-/// If the middleware refuses the request, the next poll tries again, until kPatience_ns is over. A stop that
-/// several requests have not achieved is repeated by a new writer.
+/// If the middleware refuses the request, the next poll tries again until kPatience_ns is over. After every
+/// kRepetitionsPerWriter unanswered stops, a new writer sends the next one (OperatorClient::renew_writer()).
 void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   constexpr std::size_t kRepetitionsPerWriter = 4;
   try {

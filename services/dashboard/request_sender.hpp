@@ -41,7 +41,7 @@ class RequestSender {
 
   stack::OperatorClient client_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
-  msg::Header seen_{};  ///< of the newest status; all zero: none has arrived
+  msg::Header seen_{};  ///< header of the newest status; all zero: no status has arrived
   std::list<Pending> pending_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace crane::dashboard {
 
-/// JSON text.
+/// @return JSON text
 [[nodiscard]] std::string rig_text(const configuration::Rig& rig);
 
 }  // namespace crane::dashboard

@@ -22,9 +22,9 @@ struct Run {
 class Runs {
  public:
   static constexpr std::uintmax_t kLargest_bytes = 256U << 20U;  ///< largest run that is opened
-  static constexpr std::size_t kMostListed = 500;                ///< the newest runs are listed
-  static constexpr std::size_t kMostVisited = 20'000;            ///< directory entries that are examined
-  static constexpr int kDeepest = 2;                             ///< levels of subdirectories
+  static constexpr std::size_t kMostListed = 500;      ///< largest number of listed runs, the newest
+  static constexpr std::size_t kMostVisited = 20'000;  ///< largest number of examined directory entries
+  static constexpr int kDeepest = 2;                   ///< levels of subdirectories
   static constexpr std::uintmax_t kMostUploads_bytes = 64U << 20U;
   static constexpr std::size_t kMostUploads = 32;
 

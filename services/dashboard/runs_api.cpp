@@ -40,7 +40,7 @@ std::optional<ApiAnswer> RunsApi::get(std::string_view path) {
   return job_file(path);
 }
 
-/// The directory is read at most once a second, for any number of requests.
+/// Reads the directory at most once a second, independent of the number of requests.
 ApiAnswer RunsApi::list() {
   constexpr std::int64_t kEvery_ns = 1'000'000'000;
   const auto now_ns = runtime::monotonic_ns();

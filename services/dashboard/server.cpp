@@ -17,8 +17,8 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// New connections that the kernel queues. Beyond them a client waits 1 s, then 2 s, before it tries again;
-/// the server accepts thousands of connections per second.
+/// Length of the kernel's queue of new connections. When the queue is full, a client tries again after 1 s,
+/// then 2 s. The server accepts thousands of connections per second.
 constexpr int kBacklog = 512;
 
 }  // namespace
@@ -76,11 +76,10 @@ void Server::take_samples() {
 void Server::accept() {
   acceptor_.async_accept([this](error_code error, tcp::socket socket) {
     if (!error) {
-      accept();  // called first, because the code below may throw: the next connection must be accepted in
-                 // any case
+      accept();  // first, because the code below may throw
       return welcome(std::move(socket));
     }
-    // An error, for example when no descriptor is free: the wait before the next attempt avoids a busy loop.
+    // After an error, for example without a free descriptor, the wait avoids a busy loop.
     retry_.expires_after(std::chrono::milliseconds{200});
     retry_.async_wait([this](error_code) { accept(); });
   });
@@ -121,7 +120,7 @@ bool Server::displace_for(const Client& client, Kind kind) {
 }
 
 void Server::beat() {
-  timer_.expires_after(kFramePeriod);  // started first, because the code below may throw
+  timer_.expires_after(kFramePeriod);  // first, because the code below may throw
   timer_.async_wait([this](error_code error) {
     if (!error) beat();
   });

@@ -20,9 +20,9 @@ class ViewerSession;
 /// Bounds of the server; connection_limits.hpp states those of the connections.
 inline constexpr std::uint32_t kLongestHeader_bytes = 8192;
 inline constexpr std::uint64_t kLongestBody_bytes = 4096;
-inline constexpr std::chrono::seconds kUploadPatience{120};  ///< for an upload of 16 MB
-inline constexpr std::chrono::seconds kRequestPatience{
-    10};                                                    ///< for a whole request, and between two requests
+inline constexpr std::chrono::seconds kUploadPatience{120};  ///< longest time of an upload (16 MB)
+/// Longest time of a request, and between two requests.
+inline constexpr std::chrono::seconds kRequestPatience{10};
 inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then disconnected
 /// Period of the frames to the page and of the documents.
 inline constexpr std::chrono::milliseconds kFramePeriod{16};
@@ -62,7 +62,7 @@ class Server {
   void leave(const std::shared_ptr<ViewerSession>& viewer);
   /// @return true when a connection of this client may become a viewer
   [[nodiscard]] bool admits_viewer(const Client& client);
-  /// @return true when the longest answer may be made for this client now. The check precedes the work.
+  /// @return true when the server may build the longest answer for this client now. Call before building it.
   [[nodiscard]] bool permits_history(const Client& client, RateLimit::Time now) {
     return limits_->has_room(observation::History::kLargestTopic_bytes) && histories_.permits(client, now);
   }
@@ -82,10 +82,11 @@ class Server {
  private:
   void accept();
   void welcome(boost::asio::ip::tcp::socket socket);
-  /// Ends a connection, or a viewer, to admit one of `client`: of the client of the same side that has the
-  /// most, if it has more than `client`; otherwise a connection of `client` itself that is no viewer. The
-  /// oldest is ended, viewers last. A program that occupies all connections therefore keeps out no other
-  /// client. @return false when there is no such connection
+  /// Ends a connection (for Kind::viewer: a viewer) of the same side, so that `client` can be admitted.
+  /// Candidates are the connections of clients that hold more than `client`, and the connections of `client`
+  /// that are no viewers. Of the candidates of the client that holds most, ends the oldest, viewers last. A
+  /// program that occupies all connections thus excludes no other client.
+  /// @return false when there is no candidate
   bool displace_for(const Client& client, Kind kind);
   void take_samples();
   void beat();
@@ -105,13 +106,13 @@ class Server {
     Client client;
     Kind kind;
   };
-  std::deque<Displaced> displaceable_;  ///< in the order of their begin
+  std::deque<Displaced> displaceable_;  ///< oldest first
   RateLimit guesses_{kMostGuesses}, histories_{kMostHistory_bytes};
   std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;
   bool uploads_ = false;
   std::string session_id_ = random_token();
-  /// largest number of reported failures, so that an attacker cannot fill a disk
+  /// Largest number of logged failures, so that an attacker cannot fill a disk.
   static constexpr std::uint64_t kMostReportedFailures = 20;
   std::uint64_t failures_ = 0;
 };

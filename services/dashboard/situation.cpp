@@ -42,7 +42,7 @@ ordered_json axes_of(const msg::SupervisorStatus& status, const msg::State* stat
   return axes;
 }
 
-/// The supervisor never refuses the requests that end a motion.
+/// Adds the answer to each request. The supervisor never refuses stop, disarm and estop.
 void add_answers(ordered_json& answers, const msg::SupervisorStatus& status, const msg::State* state) {
   for (const auto& line : supervisor::explain(status, state))
     answers.push_back({{"request", line.request}, {"accepted", line.accepted}, {"reason", line.reason}});

@@ -13,7 +13,7 @@ class Situation {
   static constexpr std::int64_t kSilent_ns = 1'000'000'000;
 
   void add(const observation::Sample& sample);
-  /// Changes only when information for the operator changes.
+  /// JSON of the situation. Two texts differ only when information for the operator differs.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }

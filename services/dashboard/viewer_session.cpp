@@ -146,7 +146,7 @@ void ViewerSession::subscribe(const Subscribe& wanted) {
     const bool begins = !subscriptions_.contains(channel);
     subscriptions_[channel] = id;
     if (!begins) continue;
-    // Sends earlier data, once: the newest document, or the stored samples of a topic that is rarely written.
+    // Sends earlier data once: the newest document, or the stored samples of a rarely written topic.
     if (channel > topics::kAll.size()) {
       const auto document = static_cast<Document>(channel - topics::kAll.size() - 1);
       if (const auto& text = server_.model().text(document); !text.empty())
@@ -223,7 +223,7 @@ void ViewerSession::write() {
   socket_.async_write(parts, written);
 }
 
-/// Ends the connection without a closing handshake, because a client that does not read would not answer it.
+/// Ends the connection without a closing handshake, which a client that does not read would not answer.
 void ViewerSession::end() {
   if (!std::exchange(open_, false)) return;
   beast::get_lowest_layer(socket_).cancel();

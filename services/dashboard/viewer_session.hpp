@@ -1,5 +1,6 @@
 #pragma once
-/// One WebSocket: a viewer with foxglove.websocket.v1, or the page, which gets the same messages in batches.
+/// One WebSocket: a viewer with foxglove.websocket.v1, or the page, which receives the same messages in
+/// batches.
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>

@@ -39,8 +39,7 @@ class Reader {
   bool little_;
 };
 
-/// @return PID_USER_DATA of a parameter list; empty: none. The search ends at the first parameter that does
-/// not fit.
+/// @return PID_USER_DATA of a parameter list; empty: none before the end or the first damaged parameter
 Bytes user_data_in(Reader list) {
   constexpr std::uint32_t kSentinel = 1, kUserData = 0x2C;
   while (list.left() >= 4) {

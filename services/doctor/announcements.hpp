@@ -1,6 +1,6 @@
 #pragma once
-/// Participants of every domain, from their multicast announcements (RTPS 2.5, 8.5.3 SPDP): the doctor finds
-/// a crane in a domain that it has not joined.
+/// Finds the participants of every domain from their multicast announcements (RTPS 2.5, 8.5.3 SPDP), so that
+/// the doctor finds a crane in a domain that it has not joined.
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@
 namespace crane::doctor {
 
 struct Announced {
-  std::string address;  ///< of the sender
+  std::string address;  ///< address of the sender
   std::uint32_t domain = 0;
   bus::Announcement said;
   bool operator==(const Announced&) const = default;

@@ -30,7 +30,8 @@ std::vector<std::string> addresses_of(const std::vector<Interface>& own) {
   return addresses;
 }
 
-/// Cyclone DDS repeats its announcement after 0.8 of its lease of 10 s (libs/bus, cyclone/domain.cpp).
+/// Longest period of an announcement: Cyclone DDS announces after 0.8 of its lease of 10 s (libs/bus,
+/// cyclone/domain.cpp).
 constexpr milliseconds kLongestAnnouncement{8'500};
 
 Findings examine_network(const Options& options) {

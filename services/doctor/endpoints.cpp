@@ -38,7 +38,7 @@ Finding wrong_quality(const FoundEndpoint& endpoint, const bus::PolicyDifference
 
 Findings judge_endpoints(const std::vector<FoundEndpoint>& endpoints) {
   Findings findings;
-  std::set<std::string> reported;  // an endpoint can differ from several writers in the same way
+  std::set<std::string> reported;  // one finding, although a reader can differ from several writers equally
   const auto report = [&](Finding finding) {
     if (reported.insert(finding.what).second) findings.push_back(std::move(finding));
   };
@@ -52,7 +52,7 @@ Findings judge_endpoints(const std::vector<FoundEndpoint>& endpoints) {
         report(wrong_quality(one, found));
     } else {
       for (const auto& writer : endpoints) {
-        // A writer with another quality of service is reported itself.
+        // A writer with another quality of service has its own finding.
         const bool is_of_crane = writer.writes && writer.topic == one.topic && writer.type == one.type &&
                                  bus::differences(writer.policies, bus::reader_policies(*topic)).empty();
         if (!is_of_crane) continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// Endpoints that cannot exchange samples with those of the crane.
+/// Finds endpoints that cannot exchange samples with the endpoints of the crane.
 #include <vector>
 
 #include "crane/bus/found_endpoint.hpp"
@@ -7,10 +7,9 @@
 
 namespace crane::doctor {
 
-/// Checks the endpoints that have the name of a topic of this project: the type of each, the quality of
-/// service of a writer against the readers of this project, and that of a reader against the writers that
-/// were found.
-/// @param endpoints  of the crane
+/// Checks the endpoints of the topics of this project: types, quality of service of each writer against the
+/// readers of this project, quality of service of each reader against the found writers.
+/// @param endpoints  endpoints found in the crane
 [[nodiscard]] Findings judge_endpoints(const std::vector<bus::FoundEndpoint>& endpoints);
 
 }  // namespace crane::doctor

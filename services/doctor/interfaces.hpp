@@ -1,5 +1,6 @@
 #pragma once
-/// Checks the network interfaces of --interface: address of this computer, up, multicast passes.
+/// Checks the network interfaces of --interface: the address belongs to this computer, the interface is up,
+/// multicast passes.
 #include <string>
 #include <vector>
 
@@ -18,12 +19,16 @@ struct Interface {
 /// Interfaces with an IPv4 address.
 [[nodiscard]] std::vector<Interface> own_interfaces();
 
-enum class Multicast : std::uint8_t { passes, send_refused, not_heard };
+enum class Multicast : std::uint8_t {
+  passes,        ///< the datagram came back
+  send_refused,  ///< the kernel refused to send it
+  not_heard      ///< the datagram did not come back
+};
 /// Sends a datagram to the discovery group on the interface, and checks that it comes back through the input
 /// rules (firewall) of this computer.
 [[nodiscard]] Multicast try_multicast(const std::string& address);
 
-/// @param passes  true when multicast passes on an address; not called for addresses without multicast
+/// @param passes  returns the result of try_multicast(); not called for interfaces without multicast
 template <class TryMulticast>
 [[nodiscard]] Findings judge_interfaces(const std::vector<std::string>& wanted, bool unicast_peers,
                                         const std::vector<Interface>& own, TryMulticast passes);

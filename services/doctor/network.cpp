@@ -30,7 +30,7 @@ Finding nobody(const ExpectedCrane& expected, const std::string& code, const std
   return {Grade::problem, "net", code, "nobody publishes for " + where(expected) + instead, remedy};
 }
 
-/// @return the option in which the expected crane differs from another crane; empty: none
+/// @return options with which this command would find the other crane; empty: the same options
 std::string options_for(const ExpectedCrane& expected, const std::string& crane, std::uint32_t domain) {
   std::string options;
   if (crane != expected.crane) options += " --crane " + crane;
@@ -42,7 +42,7 @@ std::string code_for(const ExpectedCrane& expected, std::uint32_t domain) {
   return domain != expected.domain ? "wrong_domain" : "wrong_crane";
 }
 
-/// Each other crane on this computer, once.
+/// One finding for each other crane on this computer.
 Findings cranes_on_this_computer(const ExpectedCrane& expected, const std::vector<LocalProcess>& local) {
   Findings findings;
   std::set<std::string> reported;

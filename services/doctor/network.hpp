@@ -13,13 +13,13 @@
 
 namespace crane::doctor {
 
-/// Observations of a participant of the requested crane.
+/// Observations of the doctor as a participant of the requested crane.
 struct Observed {
   std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number
-  std::map<std::string, double> clock_offset_s;    ///< by process: its clock minus the clock of this computer
+  std::map<std::string, double> clock_offset_s;    ///< by process: clock of its host - clock of this one
   std::uint64_t states = 0;                        ///< samples of crane/state
   std::map<std::string, std::uint64_t> rejected;   ///< by topic: samples with a wrong CRC
-  std::vector<bus::FoundEndpoint> endpoints;       ///< of other participants, of this crane
+  std::vector<bus::FoundEndpoint> endpoints;       ///< endpoints of the other participants of this crane
   std::vector<bus::OtherVersion> other_versions;
 };
 [[nodiscard]] Observed listen_on(bus::Bus& bus, std::chrono::milliseconds duration);
@@ -32,7 +32,7 @@ struct ExpectedCrane {
   bool secure = false;
 };
 
-/// Findings when no process was found: where the crane runs instead.
+/// Findings when no process was found: other cranes, domains or interfaces that have processes.
 [[nodiscard]] Findings judge_silence(const ExpectedCrane& expected, const Observed& observed,
                                      const std::vector<LocalProcess>& local,
                                      const std::vector<Announced>& announced);
@@ -40,7 +40,7 @@ struct ExpectedCrane {
 [[nodiscard]] Findings judge_processes_on_bus(const Observed& observed);
 /// Checks for incompatible writers and programs.
 [[nodiscard]] Findings judge_mismatches(const Observed& observed);
-/// Checks the number of participants: a domain has ports for a limited number of them on each computer.
+/// Checks the number of participants, because a domain has a limited number of ports on each computer.
 [[nodiscard]] Findings judge_number_of_participants(const std::vector<LocalProcess>& local,
                                                     std::uint32_t domain);
 

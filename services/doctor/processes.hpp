@@ -16,7 +16,7 @@ struct LocalProcess {
   std::uint32_t domain = 0;
   std::vector<std::string> interfaces{"127.0.0.1"};
   bool secure = false;
-  bool stopped = false;  ///< by a signal or a debugger
+  bool stopped = false;  ///< true: stopped by a signal or a debugger
   /// True for a process of the control loop; false for a tool.
   [[nodiscard]] bool in_loop() const;
 };

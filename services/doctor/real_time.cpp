@@ -143,8 +143,8 @@ Findings judge_lateness(const Lateness& lateness, double period_s) {
                   ? "look for programs with a higher priority (`ps -eLo rtprio,comm --sort -rtprio`), for a "
                     "virtual machine and for power saving of the processor"
                   : "permit SCHED_FIFO, and take load from this computer")}};
-  constexpr double kMargin = 0.2;  // share of the lateness that the loop tolerates, because several processes
-                                   // of the loop can be late in one tick
+  // Share of the tolerated lateness, because several processes of the loop can be late in one tick.
+  constexpr double kMargin = 0.2;
   if (lateness.max_us > kMargin * tolerable_us)
     return {{Grade::advice, "rt", "timer_hardly_late", what,
              "take load from this computer while the crane runs"}};

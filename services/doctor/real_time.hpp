@@ -17,8 +17,8 @@ struct Permissions {
 
 struct Buffers {
   std::int64_t largest_bytes = 0;  ///< net.core.rmem_max
-  /// Datagrams since the start of the network namespace (of the computer, outside containers): lost because
-  /// of a full buffer; received.
+  /// Datagrams lost because of a full buffer, and received datagrams, since the start of the network
+  /// namespace (outside containers: of the computer).
   std::int64_t lost = 0, received = 0;
 };
 /// @param proc  "/proc"
@@ -31,9 +31,10 @@ struct Lateness {
   double p99_us = 0, max_us = 0;
   std::size_t intolerable = 0;  ///< ticks that the bridge would count as overruns
 };
-/// Sleeps until absolute times, as the clock master does. @param period_s  of the rig
+/// Measures the lateness of sleeps until absolute times, as the clock master sleeps.
+/// @param period_s  control period of the rig
 [[nodiscard]] Lateness measure_lateness(double period_s, std::chrono::milliseconds duration, int priority);
-/// An overrun is a tick that begins more than half a period late (docs/architecture.md, Clocks).
+/// Largest lateness of a tick that is no overrun: half a period (docs/architecture.md, Clocks).
 [[nodiscard]] std::int64_t tolerable_ns(double period_s);
 [[nodiscard]] Findings judge_lateness(const Lateness& lateness, double period_s);
 

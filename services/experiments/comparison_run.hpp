@@ -23,8 +23,8 @@ struct PlannedRun {
 /// Runs one experiment without files. A stop by the supervisor or a refusal to arm is a result, not an error.
 /// @throws configuration::ConfigurationError, and RunError when the user interrupts
 [[nodiscard]] experiment::ComparedRun simulate(const PlannedRun& plan);
-/// Same, for a crane that differs from the rig file. @param started  rig with the start of the scenario and
-///   all changes, including the variant
+/// As above, for a crane that differs from the rig file. @param started  rig with the start of the scenario
+///   and all changes, including the variant
 [[nodiscard]] experiment::ComparedRun simulate(const PlannedRun& plan, const configuration::Rig& started);
 
 /// Called after each run with the number of finished runs; calls do not overlap.

@@ -49,8 +49,8 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
   return run_scenario(bus, pump, rig, scenario, log, specs);
 }
 
-/// Lockstep needs a simulated or emulated crane: a real crane does not wait for commands, and its start is
-/// not that of the scenario.
+/// Requires a simulated or emulated crane, because in lockstep the crane waits for commands and starts at the
+/// start of the scenario.
 void require_rehearsal(const configuration::Rig& rig) {
   bridge::board_kind_of(rig);
   if (rig.board != "emulated")
@@ -59,7 +59,7 @@ void require_rehearsal(const configuration::Rig& rig) {
                                              "`crane up --plant hardware` and `crane move`"});
 }
 
-/// Origin of a recording, with all that `crane replay` needs beside the rig file.
+/// Metadata of a recording, with everything that `crane replay` needs besides the rig file.
 recording::Metadata origin_of(const ExperimentOptions& options, const ExperimentResult& run) {
   return {
       {"clock", "lockstep"},
@@ -99,7 +99,7 @@ RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, co
   if (twin != nullptr) all.push_back(twin::twin_spec());
   if (twin != nullptr) stack.add(all.back(), *twin, controller);
   bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
-  // If an answer does not arrive, the timeout of the run ends the wait.
+  // The timeout of the run ends the wait for an answer that does not arrive.
   return run_scenario(
       bus, [&stack] { stack.pump(); }, rig, scenario, log, all);
 }

@@ -2,7 +2,7 @@
 /// Runs one experiment (scenario, rig, controller) in lockstep and writes its files:
 ///   recording.mcap  every topic of every tick      run.csv       canonical columns and more
 ///   metrics.json    figures of merit               picture.svg   the maneuver
-///   rig.toml        the rig as it was run
+///   rig.toml        the rig with all changes of the run
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -50,7 +50,7 @@ struct ExperimentResult {
                                         const configuration::Rig* twin = nullptr,
                                         simulator::Method integrator = simulator::Method::cvode);
 
-/// Same, with custom components in the order of stack_with(). @throws RunError
+/// As above, with custom components in the order of stack_with(). @throws RunError
 [[nodiscard]] RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components,
                                         const configuration::Rig& started,
                                         const control::Controller& controller,

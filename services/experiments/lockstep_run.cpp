@@ -15,7 +15,7 @@ using experiment::Scenario;
 using Collected = runtime::TickJoin<msg::State, msg::Reference, msg::Contribution, msg::Contribution,
                                     msg::Demand, msg::Command, msg::SupervisorStatus>;
 
-// number of ticks per advance request: less than half the history of the loop topics (128)
+// Ticks per advance request: less than half the history depth of the loop topics (128).
 constexpr std::uint64_t kChunk_ticks = 50;
 constexpr runtime::JoinPolicy kEveryTick{.in_order = true, .depth = 256};
 constexpr std::int64_t kPatience_ns = 10'000'000'000;
@@ -33,7 +33,7 @@ Collected collect_from(bus::Bus& bus) {
                    runtime::loop_reader(bus, topics::supervisor, input)};
 }
 
-/// The topics of Collected. Their samples are read as structs; those of every other loop topic as bytes.
+/// Topics whose samples are read as structs (Collected). Samples of all other loop topics are read as bytes.
 const std::array kCollected{&topics::state.description,     &topics::reference.description,
                             &topics::tracking.description,  &topics::anti_swing.description,
                             &topics::demand.description,    &topics::command.description,
@@ -146,7 +146,8 @@ class LockstepRun {
     return any;
   }
 
-  /// Observers publish after the loop; a tick is complete only with their samples.
+  /// True when the samples of the observers, which publish after the loop, have arrived: the tick is
+  /// complete.
   bool others_arrived() {
     other_samples_.clear();
     for (auto& other : others_) {
@@ -231,7 +232,7 @@ class LockstepRun {
     verdicts_.push_back({id, *sources.begin(), wanted.apply_tick});
   }
 
-  /// Takes the decisions about the requests whose tick has passed.
+  /// Checks the replies to the requests whose tick has passed.
   void check_verdicts() {
     for (const auto& expected : verdicts_) {
       if (expected.tick > frontier_) continue;

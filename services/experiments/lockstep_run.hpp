@@ -27,12 +27,12 @@ struct RunOutcome {
   double wall_s = 0;            ///< wall time of all ticks
 };
 
-/// Polls or waits for the stack; called while the script waits. @throws RunError when the stack cannot
+/// Polls the stack or waits for it; called while the run waits. @throws RunError when the stack cannot
 /// continue
 using Pump = std::function<void()>;
 
 /// @param bus         bus of the operator, not of the control loop
-/// @param components  of the stack; every loop topic that they write is recorded in every tick
+/// @param components  components of the stack; every loop topic that they write is recorded in every tick
 [[nodiscard]] RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig,
                                       const experiment::Scenario& scenario, TickLog& log,
                                       std::span<const runtime::ComponentSpec> components);

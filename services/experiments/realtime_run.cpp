@@ -35,8 +35,8 @@ std::vector<Action> actions_of(const experiment::Scenario& scenario) {
   return actions;
 }
 
-/// Longest wait for the arrival of all axes in HOLD; then also the longest wait for the end of the swing. The
-/// second wait is shorter than idle_lock_s (60 s), after which the supervisor locks an idle crane in HOLD.
+/// Longest wait for the arrival at the start, and longest wait for the load to come to rest there. It must be
+/// shorter than idle_lock_s (60 s), after which the supervisor locks an idle crane.
 constexpr auto kPatience = 30s;
 
 void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {
@@ -74,7 +74,7 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
     stack::launch_rig(children, configuration::load_rig(options.rig), launch_options);
   stack::launch(children, specs, launch_options);
   auto observer = launch_options.bus;
-  observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
+  observer.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
   bus::Bus bus{runtime::bus_options(observer, "crane_run", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
   RealtimeSession session{bus, [&children] {

@@ -19,7 +19,7 @@ struct RealtimeRunOptions {
   std::map<std::string, std::string> vendors;
 };
 
-/// Kicks, true loads and swings at the start apply to simulations only and are omitted.
+/// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
 /// @return the run as a table; time_s is 0 when the crane is in HOLD at the start of the scenario
 /// @throws configuration::ConfigurationError, SessionError, std::runtime_error
 [[nodiscard]] recording::Table run_in_realtime(const RealtimeRunOptions& options,

@@ -28,7 +28,7 @@ RealtimeSession::RealtimeSession(bus::Bus& bus, std::function<void()> meanwhile)
       references_{bus.subscriber(topics::reference)},
       demands_{bus.subscriber(topics::demand)},
       statuses_{bus.subscriber(topics::supervisor)} {
-  // Recorders read crane/request, too: only an answer shows that the supervisor has found this session.
+  // Recorders also read crane/request: only an answer proves that the supervisor receives the requests.
   constexpr std::int64_t kProbeEvery_ns = 50'000'000;
   std::int64_t probe_at_ns = 0;
   const auto is_answered = [&] {
@@ -102,7 +102,7 @@ void RealtimeSession::request_with_patience(const stack::OperatorRequest& wanted
 }
 
 void RealtimeSession::wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience) {
-  // The last status may be older than the last look: a stop that has ended since must not end the wait.
+  // Takes the samples that have arrived, because an outdated status of a past stop must not end the wait.
   take(std::chrono::nanoseconds{0});
   const bool reached =
       until([&] { return status_ && (status_->state == wanted || status_->state >= crane_STATE_STOP_C1); },

@@ -31,8 +31,8 @@ class RealtimeSession {
   void arm();
   /// Waits until the supervisor is in `wanted`. @throws SessionError after `patience` or in a stop state
   void wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience);
-  /// Moves, and waits until the state is HOLD again, then at most `patience` until the load is at rest. A
-  /// load that still swings then is no error.
+  /// Moves, waits until the state is HOLD again, then waits at most `patience` until the load is at rest. A
+  /// load that still swings after this time is no error.
   /// @throws SessionError when the move is refused or does not end within `patience`
   void move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                std::chrono::milliseconds patience);

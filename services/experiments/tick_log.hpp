@@ -1,5 +1,5 @@
 #pragma once
-/// Stores all samples of each tick of a lockstep run, in a fixed order, in the recording and in the table of
+/// Writes all samples of each tick of a lockstep run in a fixed order to the recording and to the table of
 /// the run.
 #include <filesystem>
 #include <optional>
@@ -36,8 +36,8 @@ class TickLog {
   /// Stores the origin of the run (metadata record "crane") and its rig file (attachment "rig.toml"), from
   /// which `crane replay` builds the stack again. @throws recording::WriteError
   void describe(const recording::Metadata& run, std::string_view rig_text);
-  /// Takes a sample of an operator that the stack receives before its next tick. add() of this tick writes
-  /// the sample before the samples of the tick, with the time of the tick.
+  /// Stores a sample of an operator, which the stack receives before the next tick. The next add() writes the
+  /// sample before the samples of its tick, with the time of this tick.
   template <class T>
   void receive(const topics::Topic<T>& topic, const T& sample) {
     if (writer_) inputs_.push_back({&topic.description, encoded(topic.description, &sample)});

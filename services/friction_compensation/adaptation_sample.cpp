@@ -3,7 +3,7 @@
 namespace crane::services {
 namespace {
 
-// control has no access to the messages: its enumerators have the order of crane.idl
+// crane/control does not include the messages: its enumerators repeat the order of crane.idl.
 static_assert(static_cast<int>(control::AdaptationPhase::learning) == crane_ADAPTATION_LEARNING);
 static_assert(static_cast<int>(control::AdaptationFreeze::limit_cycle) == crane_FREEZE_LIMIT_CYCLE);
 static_assert(static_cast<int>(control::AdaptationFreeze::not_executed) == crane_FREEZE_NOT_EXECUTED);

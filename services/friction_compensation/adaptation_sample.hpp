@@ -1,5 +1,5 @@
 #pragma once
-/// crane/adaptation from the report of the adaptation.
+/// Converts a report of the adaptation to a sample of crane/adaptation.
 #include "crane/control/adaptation.hpp"
 #include "crane/topics.hpp"
 

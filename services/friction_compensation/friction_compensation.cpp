@@ -12,7 +12,8 @@ namespace crane::services {
 namespace {
 
 using runtime::Context;
-/// Longest wait for the inputs of a tick / period. The inputs of tracking and anti-swing arrive before.
+/// Longest wait for the inputs of a tick, share of the period. It is longer than that of tracking and
+/// anti-swing, whose outputs are inputs here.
 constexpr double kWaitShare = 0.5;
 
 bool adapts(const control::Design& design) { return design.adaptation.enabled; }
@@ -50,7 +51,7 @@ class FrictionCompensation
   }
 
  private:
-  /// Updates the levels of the compensation from what acts on the crane at this tick.
+  /// Updates the levels of the compensation from the motion and the voltages of this tick.
   void adapt(std::uint64_t tick, const msg::State& state) {
     control::AdaptationInput input{
         .measured = runtime::measurement(state),

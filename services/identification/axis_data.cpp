@@ -23,11 +23,11 @@ double value_of(const std::vector<double>* values, std::size_t row) {
   return values == nullptr || !std::isfinite((*values)[row]) ? 0 : (*values)[row];
 }
 
-/// True for the row of the next tick, even if this tick was latched late; without a column tick, for a row
+/// True when `row` is the next tick after `last`, even if latched late; without a column tick, when `row` is
 /// one period later.
 bool follows(const recording::Table& table, std::size_t last, std::size_t row, double period_s) {
   if (const auto* tick = table.find("tick")) return (*tick)[row] == (*tick)[last] + 1;
-  constexpr double kUneven = 0.1;  // largest deviation from one period / period
+  constexpr double kUneven = 0.1;  // largest deviation of the interval from one period, share of the period
   const auto& time_s = column(table, "time_s");
   return std::abs(time_s[row] - time_s[last] - period_s) <= kUneven * period_s;
 }

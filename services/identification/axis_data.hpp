@@ -6,9 +6,9 @@
 
 namespace crane::identification {
 
-/// Rows of a canonical table with time_s in [from_s, to_s]. The voltages exclude those for the force of the
-/// load, second parts of (3.37), (3.38) of H. M. Omar, Control of Gantry and Tower Cranes, computed from the
-/// measured swing and the masses of the rig.
+/// Extracts the rows with time_s in [from_s, to_s] of a canonical table. Subtracts from the voltages the
+/// compensation of the load force, second parts of (3.37), (3.38) of H. M. Omar, Control of Gantry and Tower
+/// Cranes, computed from the measured swing and the masses of the rig.
 /// @param axis  trolley or slew
 /// @throws identification::IdentificationError when a column is missing, or the rows are not consecutive
 ///   ticks (without a column tick: not one period apart)

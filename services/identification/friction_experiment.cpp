@@ -98,10 +98,10 @@ class Experiment {
 
   [[nodiscard]] fs::path file(const std::string& name) const { return options_.directory / name; }
 
-  /// Start positions: the axis in the middle of its travel; for the slew axis, the trolley near the tower
+  /// Places the axis in the middle of its travel; for the slew axis, also the trolley near the tower
   /// (section 4.4.2).
   void place() {
-    constexpr double kUsable = 0.95;  // used share of the travel inside the margins
+    constexpr double kUsable = 0.95;  // used share of the travel within the soft margins
     const auto& drive = rig_.drives[options_.axis];
     const double middle = (drive.low_limit + drive.high_limit) / 2;
     const double half = (drive.high_limit - drive.low_limit) / 2 - drive.soft_margin;
@@ -114,7 +114,7 @@ class Experiment {
     if (options_.axis == plant::kSlew && trolley.present)
       start_[plant::kTrolley] = trolley.low_limit + 1.05 * trolley.soft_margin;
     if (!rig_.carries_load()) return;
-    // Share of the swing limit. Friction adds harmonics to those of the reference.
+    // Share of the swing limit; the reserve is for harmonics that the friction adds to the reference.
     constexpr double kSwingShare = 0.35;
     limits_.swing_rad = kSwingShare * rig_.limits.swing_limit_rad;
     limits_.load = {
@@ -218,7 +218,7 @@ class Experiment {
                      excitation_text(kBegin_s, excitation));
     const auto run = axis_run_from(table, rig_, options_.axis, kBegin_s, kBegin_s + excitation.duration_s);
     id::BreakAwayOptions break_away;
-    // Counts per window. A slower motion cannot be distinguished from one encoder step.
+    // Counts per window: a slower motion cannot be distinguished from one encoder step.
     constexpr double kCounts = 3;
     break_away.start_speed =
         std::max(break_away.start_speed,
@@ -226,7 +226,7 @@ class Experiment {
     return id::estimate_stiction(run, break_away);
   }
 
-  /// Length of the step: within half the voltage of the drive and half the swing limit.
+  /// Length of the step, m or rad: uses at most half the voltage of the drive and half the swing limit.
   [[nodiscard]] double step_size() const {
     constexpr double kVoltShare = 0.5, kTravelShare = 0.4;
     double step = std::min(kVoltShare * rig_.drives[options_.axis].volt_limit_v / loop_.stiffness_vpu,
@@ -248,7 +248,7 @@ class Experiment {
     Steps steps;
     steps.measured = *table.find(axis.column);
     auto reference = *table.find(axis.reference);
-    for (std::size_t k = 1; k < reference.size(); ++k)  // a missing reference, possible in real time
+    for (std::size_t k = 1; k < reference.size(); ++k)  // in real time, a reference may be missing
       if (!std::isfinite(reference[k])) reference[k] = reference[k - 1];
     steps.model = id::linear_response(loop_, reference, steps.measured.front());
     return steps;

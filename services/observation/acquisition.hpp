@@ -1,5 +1,6 @@
 #pragma once
-/// Captures of an oscilloscope: the rows around the trigger, the row in which a condition becomes true. Pure.
+/// Captures the rows around a trigger, like an oscilloscope. The trigger is the row in which a condition
+/// becomes true. Pure.
 #include <deque>
 #include <optional>
 #include <vector>
@@ -27,12 +28,12 @@ class Acquisition {
   };
   explicit Acquisition(const Window& window) : window_{window} {}
 
-  /// Adds a row. The trigger is a row with condition 1 whose last known predecessor has condition 0. Triggers
-  /// within a capture are ignored.
+  /// Adds a row. A row is a trigger when its condition is 1 and the last known condition was 0. Triggers
+  /// within a capture have no effect.
   /// @param condition  1, 0, or NaN: unknown
   /// @return the capture that ends with this row; nothing: no capture ends with this row
   std::optional<Capture> add(const Row& row, double condition);
-  /// Call it at the end of the data. @return the capture that has begun; nothing: no capture has begun
+  /// Call at the end of the data. @return the unfinished capture; nothing: there is none
   std::optional<Capture> finish();
 
   [[nodiscard]] bool triggered() const { return trigger_tick_.has_value(); }  ///< true: a capture has begun

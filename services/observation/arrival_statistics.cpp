@@ -71,7 +71,7 @@ void ArrivalStatistics::count(const Arrival& arrival) {
 }
 
 void ArrivalStatistics::skip(std::uint64_t from, std::uint64_t to) {
-  // a sample of an older tick is not recognised as late; its tick counts as lost
+  // A late sample of an older tick is not recognised: its tick counts as lost.
   constexpr std::uint64_t kRemembered = 10'000;
   const auto remembered_from = to - from > kRemembered ? to - kRemembered : from;
   counts_.lost += remembered_from - from;

@@ -24,17 +24,17 @@ struct Spread {
 };
 [[nodiscard]] std::optional<Spread> spread(const std::vector<double>& values);
 
-/// A reader that joins receives samples from before its time together: a reliable writer keeps the samples
-/// whose receipt has not been confirmed, at most its history of 128 samples, and sends them with its next
-/// heartbeat. Their arrival says nothing about the writer.
+/// Detects the end of the initial burst of samples. A reliable writer keeps unacknowledged samples, at most
+/// its history of 128, and sends them to a new reader together. The arrival times of this burst must not
+/// count as jitter.
 class Joining {
  public:
-  /// Call for each sample in the order of the source. @return true from the first interval on that is at
-  /// least half as long as at the source, at the latest after kLongest_ns
+  /// Call for each sample in the order of the source. @return true after the burst: from the first arrival
+  /// interval on that is at least half the source interval, at the latest after kLongest_ns of source time
   bool over(std::int64_t source_time_ns, std::int64_t arrival_time_ns);
 
  private:
-  static constexpr std::int64_t kLongest_ns = 2'000'000'000;  ///< more than the history of a loop at 100 Hz
+  static constexpr std::int64_t kLongest_ns = 2'000'000'000;  ///< longer than 128 samples at 100 Hz
   struct Times {
     std::int64_t source_ns, arrival_ns;
   };
@@ -55,7 +55,7 @@ class ArrivalStatistics {
     std::uint64_t lost = 0;       ///< ticks without a sample
     std::uint64_t late = 0;       ///< samples that arrived after a sample of a later tick
     std::uint64_t duplicate = 0;  ///< second samples of a tick
-    std::uint64_t restarts = 0;   ///< changes of the writer
+    std::uint64_t restarts = 0;   ///< changes of the start-up number
   };
   /// Counts since the beginning.
   [[nodiscard]] Counts counts() const;

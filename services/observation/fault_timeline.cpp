@@ -153,8 +153,7 @@ bool FaultTimeline::merge(Fault& fault, const Note& note) {
   });
   if (found == fault.notes.end()) return false;
   const auto at_ns = std::min(found->at_ns, note.at_ns);
-  if (found->event)
-    *found = note;  // the note of the topic has the content, the event may have the earlier time
+  if (found->event) *found = note;  // keeps the content of the topic; the event may have the earlier time
   found->at_ns = at_ns;
   found->announced = true;
   std::ranges::stable_sort(fault.notes, {}, &Note::at_ns);

@@ -1,11 +1,11 @@
 #pragma once
 /// Faults in the order of time: the first cause of each stop, and its consequences. Pure.
 ///
-/// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
-/// and a process that has become silent. Notes less than kQuiet_ns apart belong to one fault. The earliest
-/// note is the first cause of the fault. An event that announces a cause or a latch is merged with the note
-/// of this cause or latch. A process that became silent before a stop precedes the stop, even if the silence
-/// is detected later.
+/// A note is a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
+/// or the silence of a process. Notes less than kQuiet_ns apart belong to one fault; the earliest note is the
+/// first cause of the fault. An event that announces a cause or a latch is merged with the note of this cause
+/// or latch. A process that became silent before a stop precedes the stop, even if the silence is detected
+/// later.
 #include <deque>
 #include <functional>
 #include <map>
@@ -33,17 +33,18 @@ struct Note {
   std::string key{};       ///< equal for a cause or latch and the event that announces it
   bool event = false;      ///< true: from crane/event
   bool announced = false;  ///< true: this note combines an event with the cause or latch that it announces
-  bool earlier = false;  ///< true: a cause or latch of the first sample, so that the stop occurred before it
+  bool earlier = false;    ///< true: the first sample already had this cause or latch
 };
 
 /// True for a stop or emergency stop that an operator requested; false for disarm, idle time and homing.
 [[nodiscard]] bool is_operator_stop(const Note& note);
 
 struct Fault {
-  std::uint64_t number = 0;                  ///< 1, 2, ...
-  std::vector<Note> notes;                   ///< first cause, then consequences
-  std::uint64_t left_out = 0;                ///< number of discarded consequences
-  std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, ARMING, HOLD or RUN again; 0: not yet
+  std::uint64_t number = 0;     ///< 1, 2, ...
+  std::vector<Note> notes;      ///< first cause, then consequences
+  std::uint64_t left_out = 0;   ///< number of discarded consequences
+  std::int64_t last_ns = 0;     ///< time of the last note
+  std::int64_t cleared_ns = 0;  ///< time of the next READY, ARMING, HOLD or RUN; 0: not yet
   /// Samples of the topics that are written every tick, from 10 s before to 5 s after the first cause, by
   /// topic; empty until then, and for old faults.
   std::map<std::size_t, std::vector<SamplePtr>> moment;
@@ -57,7 +58,7 @@ class FaultTimeline {
   static constexpr std::size_t kMostFaults = 100, kMostNotes = 40, kMostMoments = 8;
 
   void add(const Sample& sample);
-  /// Adds a fact that no sample states.
+  /// Adds a note that no sample contains.
   void add(Note note) { put(std::move(note)); }
   /// Detects silent processes, and stores the data around a fault when they are complete.
   /// @return true when a fault is new or has changed since the last call

@@ -39,7 +39,7 @@ class FieldTable {
   [[nodiscard]] std::optional<Field> find(std::string_view name) const;
   /// Explains why `name` is not a field, and names the most similar field.
   [[nodiscard]] std::string explain(std::string_view name) const;
-  /// Symbol of the field in an expression; nothing: the field is a text.
+  /// Symbol of the field in an expression; nothing for a text field.
   [[nodiscard]] std::optional<expression::Symbol> symbol_of(const Field& field) const;
   /// Symbol of an enumerator of any enumeration: "STATE_RUN".
   [[nodiscard]] std::optional<expression::Symbol> enumerator(std::string_view name) const;

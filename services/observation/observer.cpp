@@ -10,8 +10,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// The samples of one tick arrive within one or two milliseconds. Taking them together costs a fifth of the
-/// time of a wake-up for each sample.
+/// Time to gather the samples of one tick, which arrive within 1 ms to 2 ms. Taking them together costs a
+/// fifth of the processor time of one wake-up per sample.
 constexpr milliseconds kGather{4};
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// One sample of the bus as undecoded bytes, in the form in which recordings store it.
+/// One sample of the bus as CDR bytes, as recordings store it.
 #include <cstdint>
 #include <memory>
 #include <vector>

@@ -1,11 +1,11 @@
 #pragma once
 /// Joins the samples of several topics to rows: one row per tick of crane/state. Pure.
 ///
-/// A topic that is written every tick contributes the fields of the row's tick; if its sample is missing, the
-/// fields are NaN. Any other topic contributes its newest values. A row is complete when the samples of all
-/// selected topics that are written every tick have arrived. The bus delivers the samples of one topic in the
-/// order of ticks. An incomplete row is therefore visited when a later row is complete, or when more than
-/// kMostWaiting rows wait. Rows are visited in the order of ticks. A tick without crane/state has no row.
+/// A loop topic contributes the fields of the row's tick; if its sample is missing, the fields are NaN. Any
+/// other topic contributes its newest values. A row is complete when the samples of all selected loop topics
+/// have arrived. Rows are visited in the order of ticks. Because the bus delivers the samples of one topic in
+/// the order of ticks, an incomplete row is visited when a later row is complete, or when more than
+/// kMostWaiting rows wait. A tick without crane/state has no row.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -47,7 +47,7 @@ class TickRows {
  private:
   struct Waiting {
     Row row;
-    std::uint64_t arrived = 0;  ///< a bit for each of topics_
+    std::uint64_t arrived = 0;  ///< bit i: the sample of topics_[i] has arrived
   };
   Waiting& waiting(std::uint64_t tick);
   void emit_first();
@@ -57,9 +57,9 @@ class TickRows {
   Visit visit_;
   std::vector<std::size_t> topics_;
   std::size_t state_ = 0;        ///< index of crane/state
-  std::uint64_t required_ = 0;   ///< bits of the topics that a complete row has
+  std::uint64_t required_ = 0;   ///< `arrived` of a complete row
   std::vector<double> decoded_;  ///< values of one sample
-  /// newest values of the topics that are not written every tick, by column
+  /// Newest values of the topics that are not written every tick, by column.
   std::vector<double> newest_values_;
   std::map<std::uint64_t, Waiting> waiting_;
   std::uint64_t newest_ = 0;  ///< tick of the last row

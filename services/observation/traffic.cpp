@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A larger median delay indicates the clocks of two hosts.
+/// A larger median delay shows that writer and bridge use the clocks of different hosts.
 constexpr double kLongestDelay_us = 60e6;
 
 std::size_t bin_of(double delay_us) {
@@ -91,7 +91,7 @@ void Traffic::add(const Sample& sample) {
                        topic.every_tick ? header.sample_time_ns : sample.source_time_ns,
                        sample.written_time_ns});
   if (topic.every_tick) {
-    constexpr std::size_t kMostDelays = 10'000;  // number of samples in one window of a loop at 10 kHz
+    constexpr std::size_t kMostDelays = 10'000;  // bounds the memory: one window of a loop at 10 kHz
     const auto delay_us = static_cast<double>(sample.written_time_ns - header.sample_time_ns) * 1e-3;
     if (line.delays_us.size() < kMostDelays) line.delays_us.push_back(delay_us);
     if (delay_us >= 0 && delay_us < kLongestDelay_us) ++line.figures.delay_histogram[bin_of(delay_us)];
@@ -101,7 +101,7 @@ void Traffic::add(const Sample& sample) {
 
 void Traffic::add_status(const Sample& sample, const msg::NodeStatus& status) {
   constexpr std::size_t kMostNodes = 64;
-  // shorter intervals are ignored: a change of phase causes an additional report
+  // A shorter interval is ignored, because a change of phase causes an additional report.
   constexpr std::int64_t kShortest_ns = 500'000'000;
   const auto found = nodes_.find(status.node);
   if (found == nodes_.end() && nodes_.size() >= kMostNodes) return;

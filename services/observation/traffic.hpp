@@ -1,8 +1,7 @@
 #pragma once
 /// Traffic of the bus: rates, losses and delays of every topic, and the status of every process. Delay and
-/// jitter are those of the writer: from the latching of the encoders until the writer has sent the sample.
-/// The time at which this process receives the sample has no influence, because this process has no real-time
-/// priority.
+/// jitter are measured from the latching of the encoders until the writer has sent the sample. The arrival
+/// time in this process has no influence, because this process has no real-time priority.
 #include <array>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -42,7 +41,7 @@ class Traffic {
     msg::NodeStatus status{};
     std::int64_t arrival_ns = 0, log_time_ns = 0;
     std::int64_t source_time_ns = 0;  ///< clock of the writer
-    /// Completed ticks per second between the last two reports; nothing for fewer than two of one start.
+    /// Completed ticks per second between the last two reports; nothing before two reports of one start.
     std::optional<double> tick_rate_hz{};
     [[nodiscard]] bool silent(std::int64_t now_ns) const;
   };

@@ -70,9 +70,9 @@ class Reader {
   }
 
  private:
-  /// A process of the loop counts as silent after 2.5 s, any other after 10 s. Of a gap of more than a
-  /// minute, for example after a step of the clock, only the first minute is polled: every silence is found
-  /// by then.
+  /// Polls the timeline until `now_ns`, to detect silent processes: 2.5 s for the loop, 10 s for others. Of a
+  /// gap of more than a minute, for example a step of the clock, polls only the first minute, which is
+  /// enough.
   void poll_until(std::int64_t now_ns) {
     constexpr std::int64_t kLongestGap_ns = 60'000'000'000;
     if (polled_ns_ == 0) polled_ns_ = now_ns;
@@ -115,7 +115,8 @@ class Reader {
       axis.largest_volts = std::max(axis.largest_volts, std::abs(state.applied_v[i]));
       if (armed && !std::isnan(wanted))
         axis.largest_error = std::max(axis.largest_error, std::abs(wanted - position[i]) * scale[i]);
-      // share of the voltage limit: one count of a 12-bit converter below the limit
+      // Share of the voltage limit that counts as saturation; the rest covers the rounding of a 12-bit
+      // converter.
       constexpr double kAtLimit = 0.999;
       if (status_.volt_limit_v[i] > 0 && std::abs(state.applied_v[i]) >= kAtLimit * status_.volt_limit_v[i])
         axis.saturated_s += period_s;
@@ -177,7 +178,7 @@ const Note* Review::first_cause() const {
   return nullptr;
 }
 
-/// Trigger of a recording of the black box, from its metadata; nothing: another recording
+/// @return trigger in the metadata of a black-box recording; nothing for any other recording
 std::optional<Note> trigger_of(recording::McapReader& reader) {
   const auto records = reader.metadata();
   const auto record = std::ranges::find(records, "trigger", &recording::MetadataRecord::name);
@@ -194,7 +195,7 @@ std::optional<Note> trigger_of(recording::McapReader& reader) {
               .remedy = value("first_cause_remedy")};
 }
 
-/// No sample states some triggers, for example the end of `crane up`.
+/// Adds a trigger that no sample contains, for example the end of `crane up`.
 void add_trigger(Review& review) {
   const auto& trigger = *review.trigger;
   for (const auto& fault : review.faults)

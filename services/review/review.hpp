@@ -1,5 +1,6 @@
 #pragma once
-/// Reviews a recording: states, faults with their first cause, figures, curves; as sentences and as a page.
+/// Reviews a recording: states, faults with their first causes, figures and curves, as sentences and as a
+/// page.
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -21,16 +22,18 @@ struct Phase {
   crane_Cause cause = crane_CAUSE_NONE;
 };
 
-/// One row per tick of crane/state, with the newest samples of the other topics. Angles in degrees.
+/// One row per tick of crane/state, with the newest samples of the other topics.
 struct Curves {
   std::vector<double> time_s;
-  std::array<std::vector<double>, 3> position, reference, volts;
+  std::array<std::vector<double>, 3> position, reference;  ///< by axis: m, deg, m of cable
+  std::array<std::vector<double>, 3> volts;                ///< by axis
   std::vector<double> radial_deg, tangential_deg;
 };
 
 struct AxisFigures {
-  double largest_speed = 0, largest_volts = 0;
-  double largest_error = 0;  ///< largest |reference - position| while armed
+  double largest_speed = 0;  ///< m/s or rad/s
+  double largest_volts = 0;
+  double largest_error = 0;  ///< largest |reference - position| while armed, m or rad
   double saturated_s = 0;    ///< time with |V| at the limit of the drive
 };
 
@@ -45,10 +48,11 @@ struct Review {
   std::array<AxisFigures, 3> axes;
   double largest_radial_deg = 0, largest_tangential_deg = 0;
   std::vector<observation::TopicTraffic> topics;  ///< in the order of topics::kAll
-  std::vector<std::string> problems;              ///< problems of the file
+  std::vector<std::string> problems;              ///< damage of the file
 
-  /// The first of these that exists: the stop with the trigger; the first fault; the first stop by the
-  /// operator; the first other order; a stop that began before the recording. nullptr: none.
+  /// The stop that the review explains, in order of preference: the stop with the trigger; the first fault;
+  /// the first stop by the operator; the first other order; a stop that began before the recording. nullptr:
+  /// no stop.
   [[nodiscard]] const observation::Fault* first_stop() const;
   /// The note that determines first_stop().
   [[nodiscard]] const observation::Note* first_cause() const;
@@ -63,7 +67,7 @@ struct Review {
 /// Commands for a further analysis.
 [[nodiscard]] std::vector<std::string> next_commands(const Review& review);
 [[nodiscard]] report::Page page_of(const Review& review);
-/// The same with the curves of the page, thinned to at most `most_points` rows.
+/// The review as JSON, with the curves of the page thinned to at most `most_points` rows.
 [[nodiscard]] nlohmann::ordered_json to_json(const Review& review, std::size_t most_points);
 
 }  // namespace crane::review

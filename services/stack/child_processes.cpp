@@ -29,7 +29,7 @@ std::string describe(int status) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output contains only the result of the parent's command
-  // Sockets of a DDS library and descriptors of the caller of `crane up` have no FD_CLOEXEC.
+  // Closes sockets of the DDS library and descriptors of the caller of `crane up`, which have no FD_CLOEXEC.
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   if (inherited >= 0) ::fcntl(inherited, F_SETFD, 0);
   ::execv(program, arguments);

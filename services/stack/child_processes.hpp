@@ -1,5 +1,5 @@
 #pragma once
-/// The processes of a stack as children of one command. The kernel ends them when their parent ends.
+/// The processes of a stack as child processes of one command. The kernel ends them when the parent ends.
 #include <sys/types.h>
 #include <algorithm>
 

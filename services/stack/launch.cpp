@@ -68,7 +68,7 @@ void launch_in_process(ChildProcesses& children, const LaunchOptions& options) {
 
 void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options) {
   if (rig.board != "emulated") return;
-  // The emulated rig replaces hardware; its priority is above that of the stack.
+  // The emulated rig replaces hardware: it must preempt the processes of the stack.
   const int priority = options.priority > 0 ? options.priority + 1 : 0;
   children.start(
       "emulated_rig", "crane_emulated_rig",

@@ -13,15 +13,16 @@
 namespace crane::stack {
 
 struct LaunchOptions {
-  runtime::BusOptions bus;  ///< its vendor applies to every process that is not in `vendors`
+  runtime::BusOptions bus;                     ///< bus.vendor: DDS of the processes not in `vendors`
   std::map<std::string, std::string> vendors;  ///< by component name: "tracking" -> "fastdds"
-  std::string rig;
-  std::string controller;
-  std::string clock = "realtime";
-  std::uint32_t epoch = 0;
-  int priority = 50;
-  bool verbose = false;
-  /// The processes of the loop inherit its descriptor. Unused in lockstep, which runs a simulated crane only.
+  std::string rig;                             ///< rig file
+  std::string controller;                      ///< empty: the controller of the rig file
+  std::string clock = "realtime";              ///< "realtime" or "lockstep"
+  std::uint32_t epoch = 0;                     ///< start-up number of all processes; 0: random
+  int priority = 50;                           ///< SCHED_FIFO priority; 0: ordinary scheduling
+  bool verbose = false;                        ///< true: debug messages
+  /// The processes of the loop inherit the descriptor of the ledger. Unused in lockstep, which runs no real
+  /// crane.
   std::shared_ptr<bus::Ledger> ledger = bus::Ledger::create();
 };
 
@@ -48,12 +49,12 @@ void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const L
 /// @param rig  rig file of the model. @throws std::runtime_error when the program is missing
 void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions options);
 
-/// Longest time until all processes are ready. Discovery of eight cranes that start at the same time in one
-/// domain takes up to 14 s on two busy cores, and the time grows with the number of cranes (docs/fleet.md).
+/// Longest time until all processes are ready. The discovery of eight cranes that start together in one
+/// domain takes up to 14 s on two busy cores; the time grows with the number of cranes (docs/fleet.md).
 inline constexpr std::chrono::seconds kLongestStart{60};
 
 /// Waits until every component has reported ready on crane/node, from a process of `children`.
-/// @throws std::runtime_error with the name of a component that ended, or did not report within `patience`
+/// @throws std::runtime_error that names a component that has ended, or did not report within `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
                       bus::Bus& bus, std::chrono::milliseconds patience);
 

@@ -50,7 +50,7 @@ void OperatorClient::probe() {
   msg::Request request{};
   request.id = kProbe;
   runtime::assign(request.client, client_);
-  request.kind = crane_REQUEST_MOVE;  // a move without an axis, which the supervisor refuses with any id
+  request.kind = crane_REQUEST_MOVE;  // without an axis: the supervisor refuses it even if it accepted the id
   (void)requests_.publish(request);
 }
 

@@ -15,14 +15,14 @@ namespace crane::stack {
 /// Content of a request, without header, id and client.
 struct OperatorRequest {
   crane_RequestKind kind = crane_REQUEST_NONE;
-  std::array<bool, 3> selected{};
+  std::array<bool, 3> selected{};                        ///< trolley, slew, hoist
   std::array<double, 3> target{};                        ///< move, follow: m, rad, m of cable
   std::array<double, 2> kick_radps{};                    ///< kick: radial, tangential
-  std::uint64_t apply_tick = 0;                          ///< 0: at once
-  std::uint64_t until_tick = 0;                          ///< advance
+  std::uint64_t apply_tick = 0;                          ///< lockstep: tick of the execution; 0: at once
+  std::uint64_t until_tick = 0;                          ///< advance: last tick
   std::vector<crane_Sine> sines{};                       ///< follow: at most four
-  double duration_s = 0;                                 ///< follow
-  crane_OperatingMode mode = crane_MODE_SEMI_AUTOMATIC;  ///< mode
+  double duration_s = 0;                                 ///< follow: duration
+  crane_OperatingMode mode = crane_MODE_SEMI_AUTOMATIC;  ///< mode: new operating mode
   /// Header of the newest crane/supervisor that the operator has seen. In real time the supervisor refuses a
   /// request whose operator has not seen the crane within the last 2 s, unless the request stops the crane.
   msg::Header seen{};
@@ -42,8 +42,8 @@ class OperatorClient {
   [[nodiscard]] int answerers() const { return replies_.matched(); }
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
-  /// Replaces the DDS writer of the requests. A forged packet can make the readers skip all later samples of
-  /// one writer. The readers receive the samples of the new writer as soon as they have discovered it.
+  /// Replaces the DDS writer of the requests, because a forged packet can make readers skip all later samples
+  /// of a writer. The readers receive requests again when they have discovered the new writer.
   void renew_writer();
   /// The newest request of send(), without header and checksum, which the bus adds.
   [[nodiscard]] const msg::Request& last_sent() const { return last_sent_; }

@@ -29,7 +29,7 @@ void ServiceManager::notify(std::string_view message) const {
   if (socket_ == nullptr || std::strlen(socket_) >= sizeof to.sun_path) return;
   const auto length = std::strlen(socket_);
   std::memcpy(to.sun_path, socket_, length);
-  if (to.sun_path[0] == '@') to.sun_path[0] = '\0';  // abstract
+  if (to.sun_path[0] == '@') to.sun_path[0] = '\0';  // abstract socket address, unix(7)
   const int sender = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (sender < 0) return;
   // A manager that does not read must not delay the stop of the stack.

@@ -7,12 +7,14 @@
 
 namespace crane::stack {
 
+/// Clock master of a stack: the simulated plant, or the hardware bridge with the board of the rig file.
 enum class Plant { simulated, hardware };
 
-/// Components of the control loop in the order of the processing of one tick; the first is the clock master.
+/// Components of the control loop, in the order in which they process a tick. The first is the clock master.
 [[nodiscard]] std::vector<runtime::ComponentSpec> stack_with(Plant plant);
+/// stack_with(Plant::simulated).
 [[nodiscard]] std::vector<runtime::ComponentSpec> simulated_stack();
-/// stack_with() with the hardware bridge instead of the simulated plant.
+/// stack_with(Plant::hardware).
 [[nodiscard]] std::vector<runtime::ComponentSpec> hardware_stack();
 
 }  // namespace crane::stack

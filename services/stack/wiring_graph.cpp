@@ -24,18 +24,18 @@ std::string joined(const std::vector<std::string>& parts, const std::string& sep
 
 bool names(const Description* listed, const Description& topic) { return listed->name == topic.name; }
 
-/// Topics that tools and every process write or read without a declaration in a ComponentSpec.
-bool is_observers_business(const Description& topic) {
+/// True for topics that every process and every tool may use without a declaration in a ComponentSpec.
+bool is_undeclared(const Description& topic) {
   return names(&topics::node.description, topic) || names(&topics::event.description, topic);
 }
 
-/// Empty for an output that the component always writes.
+/// Remark behind the name of a writer; empty when the component always writes the topic.
 std::string condition_of(const Write& write) {
   return write.written_with == nullptr ? "" : " (some rig files)";
 }
 
 std::vector<std::string> writers_of(const std::vector<ComponentSpec>& components, const Description& topic) {
-  if (is_observers_business(topic)) return {kEveryProcess};
+  if (is_undeclared(topic)) return {kEveryProcess};
   if (topics::may_write(topic, crane_SOURCE_OPERATOR)) return {kOperator};
   std::vector<std::string> writers;
   for (const auto& component : components)
@@ -70,7 +70,7 @@ std::string_view name_of(topics::Qos qos) {
   return "";
 }
 
-/// The topics between a request and the volts, which the README shows.
+/// True for a topic between a request and the drive voltages, as in the diagram of the README.
 bool is_on_command_path(const Description& topic) {
   return std::ranges::any_of(
       std::array{&topics::request.description, &topics::jog.description, &topics::supervisor.description,
@@ -89,7 +89,7 @@ struct Arrow {
   std::string from, to, topic;
 };
 
-/// One node represents the clock master: the simulated plant or the hardware bridge.
+/// Name of the node; simulated plant and hardware bridge share the node of the clock master.
 std::string node_of(std::string_view component) {
   return component == "hardware_bridge" ? "plant" : std::string{component};
 }

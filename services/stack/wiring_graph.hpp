@@ -1,6 +1,6 @@
 #pragma once
-/// The wiring of a stack according to its ComponentSpecs: as tables and a diagram for the documents, as dot
-/// and JSON for tools.
+/// The wiring of a stack, generated from its ComponentSpecs: tables and a diagram for the documents, dot and
+/// JSON for tools.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

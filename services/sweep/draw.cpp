@@ -17,7 +17,8 @@ Number in_section(const std::array<fields::Field<Section>, N>& table, Section& s
   return {};
 }
 
-/// `key`: "NAME.AXIS.PARAMETER", or "NAME.PARAMETER" for a term without an axis.
+/// Finds the parameter of a model term. @param key  "NAME.AXIS.PARAMETER", or "NAME.PARAMETER" for a term
+///   without an axis
 Number in_terms(configuration::Rig& rig, const std::string& key) {
   const auto first = key.find('.'), last = key.rfind('.');
   if (first == std::string::npos) return {};

@@ -11,8 +11,8 @@ struct Number {
   double* value = nullptr;  ///< nullptr: the rig has no such parameter
   fields::Range range;
 };
-/// Finds a number of [plant], [start] or of a model term, even if the term leaves it at its default.
-/// @return the number; its pointer is valid until the rig changes
+/// Finds a number of [plant], [start] or of a model term, also when the rig file leaves it at its default.
+/// @return number whose pointer is valid until the rig changes
 [[nodiscard]] Number number_of(configuration::Rig& rig, const std::string& key);
 
 /// Uniform in [0, 1), the same on every machine, independent for different seeds and indices.

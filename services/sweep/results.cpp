@@ -13,7 +13,7 @@
 namespace crane::sweep {
 namespace {
 
-/// FNV-1a.
+/// FNV-1a hash in hexadecimal digits.
 std::string digest_of(const std::string& text) {
   std::uint64_t hash = 0xCBF29CE484222325ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;

@@ -11,12 +11,12 @@
 
 namespace crane::sweep {
 
-/// Result of one run: "run", "stopped_because" (empty: complete), and the figures of experiment::to_json();
-/// figures are missing when the run ended before its last action.
+/// Result of one run: "run", "stopped_because" (empty: complete) and the figures of experiment::to_json(),
+/// which are missing when the run ended before its last action.
 using Result = nlohmann::ordered_json;
 
 [[nodiscard]] Result result_of(const Run& run, const experiment::ComparedRun& outcome);
-/// Result of a run whose process ended without one.
+/// Result of a run whose process ended without a result.
 [[nodiscard]] Result failed(const Run& run, const std::string& failure);
 
 /// The log belongs to another sweep or cannot be read or written. what() names the file and the remedy.
@@ -25,7 +25,7 @@ class LogError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One line per finished run. A line that was cut off when the program was killed is removed.
+/// Log with one line per finished run. Opening removes an incomplete last line of a killed program.
 class Log {
  public:
   /// Opens the log of this sweep, or creates it. @throws LogError
@@ -57,13 +57,13 @@ struct Group {
   const Case* on = nullptr;
   std::string variant{}, controller{};
   std::size_t runs = 0, stopped = 0;
-  std::vector<double> settling_s{};         ///< of the settled runs, increasing
-  std::vector<double> largest_swing_deg{};  ///< of all runs with figures, increasing
-  std::map<std::string, std::size_t> stops{};
+  std::vector<double> settling_s{};            ///< of the settled runs, increasing
+  std::vector<double> largest_swing_deg{};     ///< of all runs with figures, increasing
+  std::map<std::string, std::size_t> stops{};  ///< number of runs by cause of the stop
 };
 [[nodiscard]] std::vector<Group> groups_of(const Sweep& sweep, const std::map<std::size_t, Result>& results);
 
-/// Value below which a share of the sorted values lies; NaN when there are none.
+/// Quantile of increasing values; NaN without values. @param share  in [0, 1]
 [[nodiscard]] double quantile(const std::vector<double>& sorted, double share);
 
 [[nodiscard]] std::string summary_of(const std::vector<Group>& groups);

@@ -1,7 +1,7 @@
 #pragma once
-/// A sweep: every combination of scenario, rig, variant and controller, repeated with randomly drawn
-/// parameters of the simulated crane. A sweep file (TOML) lists them. A run is one experiment in lockstep, in
-/// one process.
+/// A sweep: every combination of scenario, rig, variant and controller, repeated with random parameters of
+/// the simulated crane. A sweep file (TOML) lists the combinations and the random parameters. A run is one
+/// experiment in lockstep, in one process.
 ///
 /// Run numbers count scenario, rig, variant, controller and seed in this order; the seed varies fastest. A
 /// seed draws the same crane for every controller and variant.
@@ -19,10 +19,10 @@ namespace crane::sweep {
 
 /// One parameter of the simulated crane, uniformly distributed over the seeds.
 struct Draw {
-  std::string key;  ///< key of the rig file: "plant.load_mass_kg", "start.swing_radial_rad", or
-                    ///< "model.terms.NAME.AXIS.PARAMETER"
-  double low = 0, high = 0;
-  std::string place{};  ///< of the key in its file, for messages: "FILE:LINE: "
+  /// Key of the rig file: "plant.load_mass_kg", "start.swing_radial_rad", "model.terms.NAME.AXIS.PARAMETER".
+  std::string key;
+  double low = 0, high = 0;  ///< bounds, in the unit of the key
+  std::string place{};       ///< "FILE:LINE: " of the key, for messages
 };
 
 /// One scenario on one rig.
@@ -35,8 +35,8 @@ struct Sweep {
   std::string name;  ///< file name without .toml
   std::string description;
   std::vector<Case> cases;
-  std::vector<std::string> variants;     ///< names of experiment/variant.hpp; "" is the rig as it is
-  std::vector<std::string> controllers;  ///< "" is the controller of the rig file
+  std::vector<std::string> variants;     ///< names of experiment/variant.hpp; "": the unchanged rig
+  std::vector<std::string> controllers;  ///< "": the controller of the rig file
   std::vector<Draw> draws;
   std::uint64_t first_seed = 1, seeds = 1;
   simulator::Method integrator = simulator::Method::cvode;  ///< of the simulated plant
@@ -52,7 +52,7 @@ struct Finder {
 /// @throws configuration::ConfigurationError with all problems of the sweep file and of the files that it
 ///   names
 [[nodiscard]] Sweep load_sweep(const std::filesystem::path& file, const Finder& finder);
-/// Same, from text; `file` is used in messages and for the name only.
+/// As load_sweep(), from text. @param file  file name for messages and Sweep::name
 [[nodiscard]] Sweep parse_sweep(const std::string& text, const std::string& file, const Finder& finder);
 
 /// One run of a sweep. @pre number < sweep.size()
@@ -71,7 +71,7 @@ struct Run {
 /// Runs one experiment. Every failure is a result.
 [[nodiscard]] experiment::ComparedRun simulate(const Sweep& sweep, const Run& run);
 
-/// Identification of a sweep: sweeps with different results have different texts.
+/// Text that identifies a sweep: sweeps that can have different results have different texts.
 [[nodiscard]] std::string identity_of(const Sweep& sweep);
 
 }  // namespace crane::sweep

@@ -27,7 +27,7 @@ struct Choices {
   Names scenarios, rigs;
 };
 
-/// Checks that all names of a list are different.
+/// Reads a list of names and checks that they are different.
 Names list(TomlTable& root, const std::string& key) {
   Names names = root.texts(key);
   if (root.has(key) && names.empty()) root.problem(key, "must not be empty");

@@ -16,8 +16,8 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!out.flush()) throw LogError(file.string() + ": cannot be written");
 }
 
-/// The result of a run is sent by the process of the run. The parent records a process that has ended without
-/// a result.
+/// Executes the remaining runs of a sweep. The process of a run sends its result; the parent logs a failure
+/// for a process that ended without a result.
 class Crew {
  public:
   Crew(const Sweep& sweep, const RunOptions& options, Log& log)

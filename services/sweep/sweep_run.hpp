@@ -1,6 +1,6 @@
 #pragma once
 /// Runs a sweep on several processes and writes its files:
-///   sweep.jsonl  one line per finished run; an interrupted sweep continues from it
+///   sweep.jsonl  log, one line per finished run, from which an interrupted sweep continues
 ///   runs.csv     every run with its figures
 ///   sweep.html   tables and distributions
 /// The bytes of runs.csv and sweep.html do not depend on the number of processes.
@@ -29,7 +29,7 @@ struct RunOptions {
   std::function<bool()> cancelled{};
 };
 
-/// @return the groups of all runs; empty when cancelled: the log then has the finished runs
+/// @return groups of all runs; empty when cancelled, the log then contains the finished runs
 /// @throws LogError, report::WriteError
 [[nodiscard]] std::vector<Group> run_sweep(const Sweep& sweep, const RunOptions& options);
 

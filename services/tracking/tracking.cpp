@@ -35,7 +35,7 @@ class TrackingStep {
   bool started_ = false;
 };
 
-constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick / period
+constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick, share of the period
 
 class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
@@ -51,8 +51,8 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
   TrackingStep step_;
 };
 
-/// Tracking for controllers whose anti-swing law corrects the reference instead of adding volts (figure 3.18
-/// of H. M. Omar, Control of Gantry and Tower Cranes).
+/// Tracking law behind an anti-swing law that corrects the reference instead of adding volts (figure 3.18 of
+/// H. M. Omar, Control of Gantry and Tower Cranes).
 class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Reference, msg::Contribution> {
  public:
   explicit CorrectedTracking(const Context& context)

@@ -103,9 +103,8 @@ void Motion::start(const MoveTarget& move, std::uint64_t tick) {
 std::optional<control::PlanProblem> Motion::plan_for(const MoveTarget& move,
                                                      std::uint64_t tick) const noexcept {
   if (shape_ != control::ReferenceShape::time_optimal) return std::nullopt;
-  // m, rad: distance by which the limits are extended for a start or target at a limit
-  constexpr double kRoom = 1e-3;
-  constexpr double kSpeedShare = 0.9;  // of max_speed, at which the supervisor stops the crane
+  constexpr double kRoom = 1e-3;       // m, rad: extends the limits beyond a start or target at a limit
+  constexpr double kSpeedShare = 0.9;  // share of max_speed, above which the supervisor stops the crane
   const auto now = at(tick);
   control::PlanProblem problem;
   problem.cable_m = now[control::kHoist].position;
@@ -186,7 +185,7 @@ void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noex
 void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) noexcept {
   const auto now = at(tick);
   control::StickLimits limits;
-  // EI leaves a swing of the load coordinate, which moves the trolley beyond the limits of the stick.
+  // ZVD replaces EI, whose residual swing would move the trolley beyond the limits of the stick.
   const bool robust = shaping_ == control::Shaping::zvd || shaping_ == control::Shaping::ei;
   limits.shaping = robust ? control::Shaping::zvd : control::Shaping::zv;
   if (!rig_.carries_load()) limits.shaping = control::Shaping::none;
@@ -219,7 +218,7 @@ void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) no
 
 void Motion::drive(const std::array<double, kAxes>& deflection, std::uint64_t tick) noexcept {
   if (!stick_.follows) return;
-  constexpr std::uint64_t kMostTicks = 100;  // after a longer gap the supervisor has stopped the crane
+  constexpr std::uint64_t kMostTicks = 100;  // the supervisor stops the crane before a gap becomes longer
   if (tick > stick_.tick + kMostTicks) stick_.tick = tick - kMostTicks;
   std::array<double, kAxes> wanted{};
   for (std::size_t i = 0; i < kAxes; ++i) wanted[i] = deflection[i] * stick_.memory.limits[i].speed;
@@ -227,8 +226,7 @@ void Motion::drive(const std::array<double, kAxes>& deflection, std::uint64_t ti
     stick_.reference = control::step(stick_.limits, wanted, stick_.memory);
     stick_.reference.feed_forward_v = control::feed_forward(rig_.design, stick_.limits, stick_.memory);
   }
-  if (!control::at_rest(stick_.memory))
-    begin_at(tick);  // the wait of arrived() begins at the end of the motion
+  if (!control::at_rest(stick_.memory)) begin_at(tick);  // arrived() waits from the end of the motion on
 }
 
 control::Reference Motion::on_path(std::uint64_t tick) const noexcept {

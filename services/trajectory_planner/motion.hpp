@@ -1,6 +1,6 @@
 #pragma once
-/// The reference of the trajectory planner, without the bus: the present profile of each axis and its start
-/// time.
+/// The reference of the trajectory planner, without the bus: the active profile of each axis and its start
+/// tick.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -35,13 +35,13 @@ class Motion {
   /// @param path  around zones, for `move` from the present reference
   void start(const MoveTarget& move, const control::Path& path, const control::PathSpace& space,
              std::uint64_t tick);
-  /// Slows the present reference down on its own path, which is free of zones. A reference that rests, is
-  /// slowing down, or follows a stick does not change. @return tick at which the reference rests
+  /// Slows the reference down to rest along its path, which is free of zones. Has no effect on a reference
+  /// that rests, is slowing down, or follows a stick. @return tick at which the reference rests
   std::uint64_t slow_down(std::uint64_t tick) noexcept;
-  /// True when reference and crane rest at the same place.
+  /// True when the reference is at rest, and every axis is at rest within 0.02 m or 0.02 rad of it.
   [[nodiscard]] bool rests(const control::Measurement& measured, std::uint64_t tick) const noexcept;
-  /// Problem of the time-optimal plan for this move from the present reference. Nothing when the move is not
-  /// planned: the controller uses no plans, the cable moves, or the reference is not at rest.
+  /// Planning problem of a time-optimal move from the present reference. Nothing when the move needs no plan:
+  /// the controller uses none, the cable moves, or the reference is not at rest.
   [[nodiscard]] std::optional<control::PlanProblem> plan_for(const MoveTarget& move,
                                                              std::uint64_t tick) const noexcept;
   /// Begins a planned move at `tick`.
@@ -51,23 +51,23 @@ class Motion {
   /// Decelerates from the measured speed with the reference acceleration until rest.
   void stop(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Moves with constant speeds (m/s, rad/s, m/s of cable); 0: rest. A new speed starts at the measured
-  /// position, so that the axis stops close to a mark when it is detected, without the tracking error.
+  /// position, so that an axis that has detected a mark stops there, without a tracking error.
   void creep(const std::array<double, control::kAxes>& speed, const control::Measurement& measured,
              std::uint64_t tick) noexcept;
-  /// Begins to follow a stick from the present reference. Axes that are not selected do not follow it. When
-  /// the slew axis is selected, the trolley compensates the slewing also without being selected.
+  /// Begins to follow a stick with the selected axes from the present reference. While the slew axis follows,
+  /// the trolley compensates the slewing, even if it is not selected.
   void jog(const std::array<bool, control::kAxes>& selected, std::uint64_t tick) noexcept;
-  /// While a stick is followed: the reference at `tick` for a deflection (-1 to 1: share of the largest
-  /// speed of the session, which is at most the reference speed).
+  /// Updates the reference at `tick` from the deflection of the stick. @pre jog() is active
+  /// @param deflection  in [-1, 1], share of the largest speed of the session
   void drive(const std::array<double, control::kAxes>& deflection, std::uint64_t tick) noexcept;
-  /// Reference at `tick`; while a stick is followed, that of the last drive().
+  /// Reference at `tick`; while following a stick, the reference of the last drive().
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
-  /// True when the reference has ended and the crane is at rest at it, or 20 s after the end of the
-  /// reference.
+  /// True when the reference has ended and the crane is at rest within 10 mm or 10 mrad of it; at the latest
+  /// 20 s after the end of the reference.
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
 
  private:
-  /// Constant deceleration from a speed to rest; with `speed` 0 the axis is at rest.
+  /// Constant deceleration from `speed` to rest; speed 0: at rest.
   struct Braking {
     double start = 0, speed = 0, deceleration = 1;
     [[nodiscard]] control::AxisReference at(double time_s) const noexcept;
@@ -79,26 +79,26 @@ class Motion {
   /// Cable length within the range of the rig file: > 0 also without a load, where the measured length is 0.
   [[nodiscard]] double usable_cable_m(double cable_m) const noexcept;
   [[nodiscard]] control::Shaper shaper(control::Shaping shaping, double cable_m) const;
-  /// How the controller follows a path. @pre shaper_ is that of the path
+  /// Style of the path that the controller can follow. @pre shaper_ is the shaper of the path
   [[nodiscard]] control::RouteStyle route_style() const noexcept;
-  /// Time on the path of the reference: passed since its start, or less while it slows down.
+  /// Path time, s: time since the start of the reference; slower while slow_down() is active.
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
-  /// Derivative of time_s() with respect to the passed time, in [0, 1].
+  /// Derivative of the path time with respect to time, in [0, 1].
   [[nodiscard]] double rate(std::uint64_t tick) const noexcept;
-  /// Reference on its path, before it is slowed down.
+  /// Reference at the path time of `tick`, with speeds and accelerations per path time.
   [[nodiscard]] control::Reference on_path(std::uint64_t tick) const noexcept;
   void begin_at(std::uint64_t tick) noexcept;
 
   const configuration::Rig& rig_;
   control::ReferenceShape shape_;
-  control::Shaping shaping_;  ///< that of the controller, otherwise that of the rig file
+  control::Shaping shaping_;  ///< shaping of the controller, else of the rig file
   control::Trajectory trajectory_{};
   control::Shaper shaper_;  ///< for trolley and slew; the hoist causes no swing
   std::array<Braking, control::kAxes> braking_{};
   std::optional<control::Excitation> excitation_;  ///< replaces the profile of its axis
   std::optional<Creeping> creeping_;
   std::optional<control::Route> route_;  ///< replaces the profiles of all axes
-  /// Slows the time on the path from begin_s on; after duration_s this time stands still.
+  /// Slows the path time from begin_s on to a standstill after duration_s.
   struct Slowing {
     double begin_s = 0, duration_s = 1;
   };
@@ -111,7 +111,7 @@ class Motion {
     control::StickLimits limits;
     control::StickMemory memory;
     control::Reference reference;
-    std::uint64_t tick = 0;  ///< of the reference
+    std::uint64_t tick = 0;  ///< tick of `reference`
     bool follows = false;
   };
   Stick stick_;                     ///< replaces the profiles of all axes while it follows

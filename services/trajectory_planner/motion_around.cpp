@@ -1,4 +1,4 @@
-/// Motion around zones: paths, and the slowing down of the reference before another path begins.
+/// Motion around zones: following a path, and slowing down before the next path begins.
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +18,8 @@ void Motion::start(const MoveTarget& move, const control::Path& path, const cont
     const double target = move.selected[i] ? move.target[i] : start[i];
     trajectory_[i] = control::step_profile(target, target);
   }
-  // A leg begins before a controller has damped the swing of the previous leg. ZV does not cancel the swing
-  // by the Coriolis force of a trolley on a turning jib.
+  // Every reference is shaped, because a leg begins before the law has damped the swing of the previous leg.
+  // ZV is not sufficient: it does not cancel the swing by the Coriolis force of a trolley on a turning jib.
   const bool shapes = shape_ != control::ReferenceShape::step;
   const auto shaping = shaping_ == control::Shaping::ei ? shaping_ : control::Shaping::zvd;
   shaper_ = shapes ? shaper(shaping, path.points.front().position[control::kHoist]) : control::Shaper{};
@@ -32,8 +32,8 @@ void Motion::start(const MoveTarget& move, const control::Path& path, const cont
 }
 
 control::RouteStyle Motion::route_style() const noexcept {
-  // A law for step references ignores the speed of the reference. The axes therefore lag by different amounts
-  // and would leave the legs at a corner.
+  // A law for step references ignores the speed of the reference: the axes lag by different amounts and would
+  // leave the legs at a corner. The delay lets them arrive before the next leg.
   constexpr double kLag_s = 3, kSlowerForLag = 0.5;
   if (shape_ == control::ReferenceShape::step) return {.delay_s = kLag_s, .speed_factor = kSlowerForLag};
   return {.blends = true, .overlaps = !(shaper_.delay_s() > 0), .delay_s = shaper_.delay_s()};
@@ -68,7 +68,7 @@ std::uint64_t Motion::slow_down(std::uint64_t tick) noexcept {
     if (now[i].speed != 0)
       longest_s = std::max(longest_s, std::abs(now[i].speed) / rig_.drives[i].reference_acceleration);
   if (!(longest_s > 0) || stick_.follows || slowing_) return tick;
-  // After a constant deceleration for one swing period, the load hangs at rest.
+  // A constant deceleration for exactly one swing period leaves no swing.
   const double period_s =
       plant::swing_period_s(rig_.design.crane.gravity_mps2, std::max(now[control::kHoist].position, 0.05));
   slowing_ = Slowing{time_s(tick), std::max(longest_s, period_s)};
@@ -76,7 +76,7 @@ std::uint64_t Motion::slow_down(std::uint64_t tick) noexcept {
 }
 
 bool Motion::rests(const control::Measurement& measured, std::uint64_t tick) const noexcept {
-  constexpr double kBand = 0.02, kSlow = 0.02;  // m, rad; per second
+  constexpr double kBand = 0.02, kSlow = 0.02;  // m, rad; m/s, rad/s
   const auto reference = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)
     if (rig_.drives[i].present && (reference[i].speed != 0 || std::abs(measured.speed[i]) > kSlow ||

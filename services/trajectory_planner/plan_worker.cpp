@@ -42,7 +42,7 @@ std::optional<control::PlanResult> PlanWorker::take() {
 
 void PlanWorker::work() {
   const sched_param ordinary{};
-  // ordinary priority, so that the thread never competes with the loop
+  // Ordinary priority: the thread never delays the loop.
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
   std::unique_lock lock{mutex_};
   for (;;) {
@@ -52,7 +52,7 @@ void PlanWorker::work() {
     lock.unlock();
     const control::PlanResult result = control::time_optimal_plan(design_, problem);
     lock.lock();
-    if (!problem_) result_ = result;  // otherwise a newer move has replaced this one
+    if (!problem_) result_ = result;  // otherwise a newer move has replaced this problem
   }
 }
 

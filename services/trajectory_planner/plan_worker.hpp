@@ -1,7 +1,7 @@
 #pragma once
-/// Solves time-optimal plans outside the control loop. In real time a thread of ordinary priority solves, and
-/// the loop never waits for it: take() returns nothing while the thread is busy. In lockstep, ask() solves at
-/// once, so that runs repeat bit for bit.
+/// Solves time-optimal plans outside the control loop. In real time, a thread of ordinary priority solves;
+/// the loop never waits for this thread, because take() returns nothing while it is busy. In lockstep, ask()
+/// solves immediately, so that runs repeat bit for bit.
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -21,7 +21,7 @@ class PlanWorker {
   /// Begins to solve a problem and discards the result of the previous problem. @return false when the thread
   /// holds the lock; call again at the next tick
   bool ask(const control::PlanProblem& problem);
-  /// The result of the last ask(), once; nothing while it is being solved.
+  /// Takes the result of the last ask(); nothing while the thread solves, and after the result was taken.
   [[nodiscard]] std::optional<control::PlanResult> take();
 
  private:

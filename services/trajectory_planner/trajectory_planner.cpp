@@ -16,7 +16,8 @@ namespace crane::services {
 namespace {
 
 using runtime::Context;
-/// Longest wait for the inputs of a tick / period. The reference is not needed before the next tick.
+/// Longest wait for the inputs of a tick, share of the period; long, because the next tick uses the
+/// reference.
 constexpr double kWaitShare = 0.8;
 
 MoveTarget target_of(const msg::AcceptedMove& request) {
@@ -59,8 +60,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   }
 
  protected:
-  /// At the first tick and after a gap, the reference of the present tick was not published during the
-  /// previous tick.
+  /// Publishes the reference of the present tick when the previous tick did not: at the first tick and after
+  /// a gap.
   bool on_idle(std::int64_t /*now_ns*/) override {
     const auto* state = open_leader();
     if (state == nullptr || published_ == state->header.tick) return false;
@@ -87,8 +88,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     }
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
-    // A planner that starts while the crane is armed has no reference yet. Its reference begins at the
-    // measured position.
+    // A planner that starts while the crane is armed begins its reference at the measured position.
     if (!published_) motion_.follow(measured, next);
     if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) drop_waiting_moves();
     if (supervisor_ == crane_STATE_STOP_C1) {
@@ -112,10 +112,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
-  /// The supervisor accepts a move in RUN, and leaves RUN when the crane stops or the planner does not begin.
-  /// A planner that was paused during this time must not execute the move after the next arming. Moves of
-  /// unknown age are also obsolete: those of the first status of a supervisor, and of the first status after
-  /// a gap.
+  /// Discards a move when the supervisor is not in RUN. The supervisor enters RUN with an accepted move and
+  /// leaves RUN when the crane stops or the planner does not begin: a planner that was paused must not
+  /// execute the move after the next arming. Moves of unknown age are also obsolete: those of the first
+  /// status of a supervisor, and of the first status after a gap.
   void leave_obsolete_moves(const msg::AcceptedMove& move) {
     if (known_moves_ && (supervisor_ == crane_STATE_RUN || move.number <= *known_moves_)) return;
     const bool dropped = known_moves_ && move.number > *known_moves_;
@@ -141,7 +141,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       start_straight(target_of(move), tick);
   }
 
-  /// Time-optimal plans use the whole speed of the drives; in maintenance, a move is shaped instead.
+  /// Starts a move on the straight path. In maintenance mode, a shaped profile replaces the time-optimal
+  /// plan, which would use the full speed of the drives.
   void start_straight(const MoveTarget& move, std::uint64_t tick) {
     if (const auto problem =
             worker_ && mode_ != crane_MODE_MAINTENANCE ? motion_.plan_for(move, tick) : std::nullopt)
@@ -150,12 +151,11 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.start(move, tick);
   }
 
-  /// With zones, a move begins at a place on the accepted path of the move before it, at rest: the supervisor
-  /// has found a path from this place, too, because both places are connected.
+  /// With zones, a new move waits until the reference rests on the accepted path of the previous move. The
+  /// supervisor has searched from the measured position, but both places are connected: a path exists.
   void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
                      std::uint64_t tick) {
-    // longest wait for rest; friction may hold an axis away from its reference
-    constexpr double kLongest_s = 20;
+    constexpr double kLongest_s = 20;  // bounded, because friction may hold an axis away from its reference
     (void)motion_.slow_down(tick);
     waiting_ = Waiting{move.number, target_of(move),
                        tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
@@ -187,7 +187,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
                    "move the load away from the zones, then to the target");
   }
 
-  /// A law for step references may move the axes with any speed up to max_speed.
+  /// True when the straight path is free at max_speed, which a law for step references may reach.
   [[nodiscard]] bool is_free_for_step(const plant::PerAxis& from, const plant::PerAxis& to) const {
     const auto begin = control::completed(path_space_, from), end = control::completed(path_space_, to);
     const double clearance_m = control::straight_clearance_m(path_space_, begin, end);
@@ -203,8 +203,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     waiting_.reset();
   }
 
-  /// Begins the move that waits for its plan: with the plan, or with the input shaper if the plan is not
-  /// ready in time.
+  /// Begins the move that waits for its plan: with the plan, or with a shaped profile when the plan is late.
   void begin_pending(std::uint64_t tick) {
     if (!pending_) return;
     if (!pending_->submitted) pending_->submitted = worker_->ask(pending_->problem);
@@ -253,7 +252,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   };
   std::optional<Waiting> waiting_;
   double period_s_;
-  bool steps_;                  ///< the reference of the controller jumps to the target
+  bool steps_;                  ///< true: the controller uses step references
   plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
   control::PathSpace path_space_;
   Motion motion_;

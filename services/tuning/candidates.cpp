@@ -27,7 +27,7 @@ class List {
            bool observer = false) {
     candidates.push_back({controller, std::move(gains), observer});
   }
-  /// Every pair of values.
+  /// Adds one candidate for every pair of values.
   void grid(const std::string& controller, const std::string& first, const std::vector<double>& firsts,
             const std::string& second, const std::vector<double>& seconds) {
     for (const double a : firsts)

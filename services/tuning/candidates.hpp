@@ -10,7 +10,7 @@ namespace crane::tuning {
 
 struct Candidate {
   std::string controller;
-  /// Keys of [controller] with their values, on top of the rig file.
+  /// Keys of [controller] and their values, which replace those of the rig file.
   std::vector<std::pair<std::string, double>> gains;
   bool observer = false;  ///< swing_observer
 

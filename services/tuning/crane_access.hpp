@@ -1,5 +1,5 @@
 #pragma once
-/// The crane that is tuned: it executes scenarios.
+/// Interface to the crane under tuning, which executes scenarios.
 #include <string>
 
 #include "crane/experiment/scenario.hpp"

@@ -13,7 +13,7 @@ namespace {
 class Normal {
  public:
   explicit Normal(std::uint64_t seed) : engine_{seed} {}
-  /// Box-Muller: std::normal_distribution differs between libraries.
+  /// Standard normal value (Box-Muller), because std::normal_distribution differs between libraries.
   double operator()() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
@@ -30,7 +30,7 @@ Identified drawn(Identified values, Normal& normal) {
     value.value = std::max(low, value.value + value.standard_error * normal());
   };
   constexpr double kNoBound = -std::numeric_limits<double>::infinity();
-  // Cable, load and gain are positive: a draw never crosses the half of the estimate.
+  // Cable, load and gain must stay positive: a draw is at least half of the estimate.
   const auto draw_positive = [&](Value& value) { draw(value, value.value / 2); };
   draw_positive(values.cable_m);
   draw_positive(values.load_mass_kg);

@@ -7,8 +7,8 @@
 
 namespace crane::tuning {
 
-/// A law that does not settle on 14 % of the possible rigs settles on all 20 drawn rigs with a probability of
-/// 5 % (0.86^20).
+/// Number of drawn rigs: a law that fails to settle on 14 % of the possible rigs settles on all 20 drawn rigs
+/// with a probability of only 5 % (0.86^20).
 inline constexpr std::size_t kDrawnRigs = 20;
 
 /// Draws each identified value from a normal distribution with its standard error, independently of the other

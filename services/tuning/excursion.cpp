@@ -11,7 +11,7 @@
 namespace crane::tuning {
 namespace {
 
-/// The reference of a scenario by step of the simulation.
+/// The reference of a scenario, one entry per step of the simulation.
 struct Plan {
   std::vector<control::AxisReference> reference;
   double middle = 0, step_s = 0;
@@ -44,7 +44,7 @@ struct AxisModel {
   [[nodiscard]] std::complex<double> suspension(double x) const {
     return radius_m ? *radius_m * std::polar(1.0, x) : std::complex<double>{x, 0};
   }
-  /// Distance of the suspension point from the load along the axis.
+  /// Distance from the load to the suspension point, along the axis, m.
   [[nodiscard]] double along(std::complex<double> ahead, double x) const {
     return radius_m ? (ahead * std::polar(1.0, -x)).imag() : ahead.real();
   }
@@ -76,7 +76,7 @@ Excursion excursion_of(const AxisModel& axis, const PossibleCrane& crane, const 
   return found;
 }
 
-/// `count` values from low to high, at constant ratio or at constant distance.
+/// @return `count` values from low to high, with constant ratio (`ratio` true) or constant difference
 std::vector<double> between(double low, double high, int count, bool ratio) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) {
@@ -86,19 +86,20 @@ std::vector<double> between(double low, double high, int count, bool ratio) {
   return values;
 }
 
-/// m / M of the trolley, m R / J of slew, for the load mass of the rig file.
+/// Trolley: load mass / trolley inertia. Slew: load mass * radius / inertia of jib and trolley. The load mass
+/// is that of the rig file.
 double load_ratio(const configuration::Rig& rig, std::size_t axis, double radius_m) {
   if (axis == plant::kTrolley) return rig.plant.load_to_trolley_ratio();
   return rig.plant.load_to_jib_ratio() * radius_m /
          (1 + rig.plant.trolley_to_jib_ratio() * radius_m * radius_m);
 }
 
-/// Extremes of gain, delay and load mass, and several lengths and levels of friction: resonance and
-/// stick-slip may be worst between the bounds.
+/// Extremes of gain, delay and load mass, combined with several cable lengths and levels of friction, because
+/// resonance and stick-slip may be worst between the bounds.
 std::vector<PossibleCrane> possible_cranes(const configuration::Rig& careful, const Priors& priors,
                                            const Possible& possible, std::size_t axis, const AxisModel& model,
                                            double step_s) {
-  // Lengths at a ratio of at most 1.12: the period differs by at most 6 % between neighbours.
+  // Neighbouring lengths have a ratio of at most 1.12: their periods differ by at most 6 %.
   const int lengths =
       2 + static_cast<int>(std::log(possible.cable_high_m / possible.cable_low_m) / std::log(1.12));
   const double nominal_gain = kLoop_radps * kLoop_radps / model.stiffness_vpu;

@@ -92,7 +92,7 @@ configuration::Rig with_identified(configuration::Rig rig, const Identified& ide
 std::vector<std::string> outside(const Identified& identified, const configuration::Rig& rig,
                                  const Priors& priors) {
   std::vector<std::string> lines;
-  constexpr double kErrors = 3;  // standard errors beyond a bound
+  constexpr double kErrors = 3;  // permitted excess over a bound, in standard errors
   const auto check = [&](const std::string& name, const Value& value, double low, double high) {
     const double margin = kErrors * value.standard_error + 0.02 * (high - low);
     if (value.value < low - margin || value.value > high + margin)

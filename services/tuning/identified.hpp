@@ -1,5 +1,5 @@
 #pragma once
-/// Identified parameters of a rig, and the rig file that they give.
+/// Identified parameters of a rig, and their conversion to a rig file.
 #include <array>
 #include <optional>
 #include <string>
@@ -29,16 +29,17 @@ struct SecondMode {
   Value lower_length_m;  ///< hook to load
   Value hook_raised_m;   ///< distance of the hook above the end of the cable length
   std::array<double, 2> rest_angle_rad{};
-  double residual_rms = 0;  ///< rad
+  double residual_rms = 0;  ///< rms residual of the swing, rad
 };
-/// Upper bound of the share, from the term.
+/// Upper bound of SecondMode::lower_share, from the range of the term.
 [[nodiscard]] double largest_lower_share();
 [[nodiscard]] plant::TermSetting double_pendulum_term(double lower_share, double lower_length_m,
                                                       double hook_raised_m);
 
 struct Identified {
-  Value cable_m;  ///< suspension point to centre of the load; with a second mode: the pendulum with the
-                  ///< frequency of the first mode
+  /// Suspension point to centre of the load; with a second mode: length of the simple pendulum with the
+  /// frequency of the first mode.
+  Value cable_m;
   std::optional<SecondMode> second_mode;
   std::array<Value, 2> rest_angle_rad;  ///< radial, tangential
   Value load_mass_kg;

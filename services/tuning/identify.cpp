@@ -56,8 +56,8 @@ Crane with_drive(Crane crane, std::size_t axis, const std::vector<double>& v) {
   return crane;
 }
 
-/// Delayed command by row. In the term command_delay a fraction of a tick acts on the mean of the tick;
-/// therefore the model gets whole ticks, not the steps of the simulation.
+/// Delayed command, one entry per row. Works on rows, not on steps of the simulation, because the term
+/// command_delay applies a fraction of a tick to the mean over the tick.
 std::vector<plant::PerAxis> delayed(const std::vector<plant::PerAxis>& command_v,
                                     const configuration::Rig& rig, std::size_t axis, double delay_s) {
   plant::Model model{
@@ -67,8 +67,8 @@ std::vector<plant::PerAxis> delayed(const std::vector<plant::PerAxis>& command_v
   return output_v;
 }
 
-/// First values of gain and friction: the regression of crane identify, or the rig file when the motion is
-/// too slow for it.
+/// Initial values of gain and friction: from the regression of crane identify, or from the rig file when the
+/// motion is too slow for the regression.
 std::vector<double> first_values(const recording::Table& table, const configuration::Rig& rig,
                                  std::size_t axis) {
   const double given = axis == plant::kTrolley ? rig.plant.trolley_gain_mps2pv : rig.plant.slew_gain_radps2pv;
@@ -110,20 +110,20 @@ FitParameter held(FitParameter parameter) {
   return parameter;
 }
 
-/// Starts of the delay, in periods: the loss has several minima where the axis sticks often. The fine ones
-/// are used when no coarse one explains the motion.
+/// Initial values of the delay, in periods; several, because the loss has several minima when the axis sticks
+/// often. The fine values are used when no coarse value explains the motion.
 constexpr std::array kCoarseDelays_periods{0.25, 0.75, 1.25, 1.75};
 constexpr std::array kFineDelays_periods{0.05,  0.125, 0.375, 0.5,   0.625, 0.875, 1.0,
                                          1.125, 1.375, 1.5,   1.625, 1.875, 2.0};
 
-/// Residual of a drive, m or rad, above which a fit may be a wrong minimum. Measured: the hidden rigs of
-/// seeds 203, 204, 205 and 224 leave at most 8e-5 in the right minimum, that of seed 224 leaves 4e-4 to 9e-4
-/// in wrong ones.
+/// Residual of a drive, m or rad, above which a fit may have ended in a local minimum. Measured: the hidden
+/// rigs of seeds 203, 204, 205 and 224 have at most 8e-5 in the global minimum; seed 224 has 4e-4 to 9e-4 in
+/// local minima.
 constexpr double kWrongMinimum = 1e-4;
 
-/// Fits from one initial value of the delay. The delay is held until gain and friction fit: from a wrong
-/// friction, a step of all parameters at once lets the delay explain the times at which the axis breaks away,
-/// and ends in a minimum far from the true delay.
+/// Fits from one initial value of the delay: first with this delay fixed, then all parameters. With a wrong
+/// friction, a fit of all parameters would let the delay explain the times at which the axis breaks away, and
+/// would end in a local minimum far from the true delay.
 FitResult fit_from(std::vector<FitParameter> parameters, const std::vector<PreparedRun>& runs,
                    const WindowedFit& fit) {
   const auto bounds = std::exchange(parameters[kDelay], held(parameters[kDelay]));
@@ -165,12 +165,12 @@ FitResult fit_drive(const recording::Table& table, const configuration::Rig& rig
   return *best;
 }
 
-/// Error of the simulation itself (steps of 5 ms, smoothed swing), which the residuals do not show. Its
-/// square is added to that of the standard error. Measured: about the rms error of the estimates of hidden
-/// rigs (docs/tune.md); Long.StandardErrorsMatchTheSpread prints the errors in units of the sum.
+/// Systematic error of the simulation (steps of 5 ms, smoothed swing), which the residuals do not show. It is
+/// added to the standard error in quadrature. Measured: about the rms error of the estimates of hidden rigs
+/// (docs/tune.md); Long.StandardErrorsMatchTheSpread prints the errors in units of the sum.
 struct ModelError {
-  double share = 0;     ///< of the value
-  double absolute = 0;  ///< in its unit
+  double share = 0;     ///< share of the value
+  double absolute = 0;  ///< in the unit of the value
 };
 constexpr ModelError kCableError{2e-4, 0}, kLoadError{6e-4, 0}, kGainError{4e-4, 0},
     kCoulombError{1e-4, 2e-4}, kViscousError{1e-3, 1e-3}, kDelayError{0, 6e-5};

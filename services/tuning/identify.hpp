@@ -1,9 +1,9 @@
 #pragma once
 /// Identifies cable length, rest angles, load mass, and gain, friction and delay of each drive from the
-/// motions of the tuning. The swing depends on the measured motion of its support only, so that cable length
-/// and rest angles are fitted first (Part::load), and then the second mode of a load below a hook, if any.
-/// The motion of a drive depends on its voltage and on the measured swing (Part::drive); the force of the
-/// load on the trolley gives the load mass.
+/// motions of the tuning. First fits cable length and rest angles, because the swing depends only on the
+/// measured motion of the support (Part::load); then the second mode of a load below a hook, if any; then
+/// each drive, whose motion depends on its voltage and on the measured swing (Part::drive). The force of the
+/// load on the trolley determines the load mass.
 #include "crane/recording/csv.hpp"
 #include "tuning/identified.hpp"
 #include "tuning/motion.hpp"
@@ -12,15 +12,15 @@
 
 namespace crane::tuning {
 
-/// A motion as the simulations of plant/diagnosis read it. @throws identification::IdentificationError when a
-/// column or a tick is missing
+/// Converts a motion to the input of the simulations of plant/diagnosis. @throws
+/// identification::IdentificationError when a column or a tick is missing
 [[nodiscard]] diagnosis::PreparedRun prepared(const recording::Table& table, const configuration::Rig& rig);
 
-/// The crane of the rig file without the terms that the tuning identifies, with a true cable length and rest
-/// angles.
+/// The crane of the rig file with this true cable length and these rest angles, without the terms that the
+/// tuning identifies.
 [[nodiscard]] diagnosis::Crane crane_with(const configuration::Rig& rig, double cable_m,
                                           std::array<double, 2> rest_angle_rad);
-/// Fit of the swing, without a crane.
+/// Settings of the fit of the swing; the caller sets WindowedFit::crane.
 [[nodiscard]] WindowedFit load_fit(bool tower);
 
 struct LoadFit {
@@ -32,15 +32,16 @@ struct LoadFit {
 [[nodiscard]] LoadFit fit_load(const std::vector<diagnosis::PreparedRun>& runs, const configuration::Rig& rig,
                                const Priors& priors);
 
-/// Main motion of each drive. @throws identification::IdentificationError
+/// Main motion of each drive.
 struct MainMotions {
-  std::array<std::optional<recording::Table>, 2> of_axis;
+  std::array<std::optional<recording::Table>, 2> of_axis;  ///< trolley, slew; nothing: no such drive
 };
 struct Identification {
   Identified values;
   double swing_residual_rad = 0;           ///< rms
   std::array<double, 2> drive_residual{};  ///< rms, m or rad
 };
+/// @throws identification::IdentificationError
 [[nodiscard]] Identification identify(const MainMotions& motions, const configuration::Rig& rig,
                                       const Priors& priors);
 

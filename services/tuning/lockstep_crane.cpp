@@ -12,11 +12,11 @@ struct Board {
   const configuration::Rig* truth;
   simulator::Method integrator;
 };
-/// Board of the stack that this thread builds: ComponentSpec::make is a function pointer without a context.
+/// Board of the stack that this thread builds; global, because ComponentSpec::make cannot capture it.
 thread_local Board built{};
 
-/// Presets the counters of trolley and slew as the bridge of a real rig does: at the start the rig file shows
-/// the start position, also when sign or scale of an encoder are wrong.
+/// Presets the counters of trolley and slew, as the bridge of a real rig does: the first measured position is
+/// the start position of the rig file, even when sign or scale of an encoder are wrong.
 void preset_counters(simulator::SimulatedRig& simulated, const configuration::Rig& rig) {
   const std::array start{simulated.start.trolley_m, simulated.start.slew_rad};
   for (const std::size_t i : {plant::kTrolley, plant::kSlew}) {
@@ -42,7 +42,7 @@ struct Outcome {
   experiments::RunOutcome run;
 };
 
-/// The true rig at the start of a run: the axes are where the rig file says, the load is at the same swing.
+/// The true rig at the start of a run, with axes and swing of the rig file of the control loop.
 configuration::Rig started_truth(const configuration::Rig& truth, const configuration::Rig& started) {
   configuration::Rig actual = truth;
   const double cable_m = truth.start.position[plant::kHoist] + truth.start.cable_length_offset_m;

@@ -10,7 +10,7 @@ namespace crane::tuning {
 namespace {
 
 constexpr double kStableSwing_rad = 2 * experiment::kSettlingSwing_rad;  // residual swing of a stable loop
-constexpr std::size_t kFrictionChanges = 2;                              // the changes of friction come last
+constexpr std::size_t kFrictionChanges = 2;  // number of changes of friction, last
 
 double& parameter(configuration::Rig& rig, const std::string& term, const std::string& axis,
                   const std::string& name, double missing) {
@@ -33,7 +33,7 @@ configuration::Rig with_delay(configuration::Rig rig, double periods) {
   return rig;
 }
 
-/// The gain of the loop; the friction in volts, and therefore its compensation, does not change.
+/// Multiplies the gains of the drives. The friction in volts, and therefore its compensation, is unchanged.
 configuration::Rig with_gain(configuration::Rig rig, double factor) {
   rig.plant.trolley_gain_mps2pv *= factor;
   rig.plant.slew_gain_radps2pv *= factor;

@@ -1,5 +1,5 @@
 #pragma once
-/// Margins of a law: the changes of a rig on which the loop stays stable, by simulated maneuvers.
+/// Stability margins of a law, from simulated maneuvers on changed rigs.
 #include <array>
 #include <optional>
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace crane::tuning {
 
-/// Required margins, chosen. Delay: one period of the loop; a law without this margin is unstable when its
-/// commands act one tick late. Gain: 2, the 6 dB that are common in practice.
+/// Required margins. Chosen: a delay margin of one control period, because a command may act one tick late; a
+/// gain margin of 2, the usual 6 dB.
 inline constexpr double kRequiredDelay_periods = 1, kRequiredGain = 2;
 
 /// Tested delays, in periods, and gains, in ascending order.
 inline constexpr std::array kTestedDelays_periods{1.0, 2.0, 3.0, 5.0};
 inline constexpr std::array kTestedGains{1.5, 2.0, 3.0};
-/// Changes of cable length, load mass and friction that a rig must survive.
+/// Relative changes of cable length, load mass and friction on which a law must stay stable.
 inline constexpr double kCableChange = 0.2, kLoadChange = 0.5, kFrictionChange = 0.2;
 
 struct Margins {
-  double delay_periods = 0;                  ///< largest tested additional delay with a stable loop
-  double gain = 1;                           ///< largest tested factor of the volts with a stable loop
-  bool survives_changes = false;             ///< cable and load: stable; friction: no stop
-  std::optional<double> changed_settling_s;  ///< worst mean settling time under the changes; nothing: not all
-                                             ///< changes settle
+  double delay_periods = 0;       ///< largest tested additional delay with a stable loop
+  double gain = 1;                ///< largest tested factor of the gains with a stable loop
+  bool survives_changes = false;  ///< true: stable with changed cable and load, no stop with friction
+  /// Largest mean settling time on a changed rig; nothing: the loop does not settle on every changed rig.
+  std::optional<double> changed_settling_s;
   [[nodiscard]] bool holds() const {
     return delay_periods >= kRequiredDelay_periods && gain >= kRequiredGain && survives_changes;
   }
@@ -49,7 +49,7 @@ class MarginRuns {
   [[nodiscard]] Margins margins() const;
 
  private:
-  /// True when the result of every maneuver of the case is true. @param number  of the case
+  /// True when the result of every maneuver of case `number` is true.
   [[nodiscard]] bool all(const std::vector<bool>& results, std::size_t number) const;
 
   std::size_t maneuvers_;

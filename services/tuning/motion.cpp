@@ -13,17 +13,17 @@
 namespace crane::tuning {
 namespace {
 
-// Swing of the sines / swing limit, for a load on a support that follows them exactly. Chosen: small angles.
+// Swing by the sines / swing limit, when the support follows exactly. Chosen for small angles.
 constexpr double kSineShare = 0.35;
 // Swing by the first and the second step: step of the support / cable length, rad. The third step is 1.5
 // times as large. Chosen: at 0.15 rad, sin x differs from x by 0.4 %.
 constexpr double kStepSwing_rad = 0.1;
 constexpr double kProbe_s = 6, kProbeRest_s = 3, kSines_s = 30, kRest_s = 2;
 constexpr double kProbe_hz = 1.0 / 3;
-// Least time from step to step: 4 time constants of the slowest position loop of the priors. With the share
-// 0.6 / 1.4 of the assumed gain, the poles of kLoop_radps = 7 rad/s have the real part -3 / s.
+// Shortest time between steps: 4 time constants of the slowest position loop of the priors. With 0.6 / 1.4 of
+// the assumed gain, the poles of kLoop_radps = 7 rad/s have the real part -3 / s.
 constexpr double kStepSpacing_s = 1.4;
-// The cable length lies within these bounds of its rough estimate: standard errors, share. Chosen.
+// Largest error of the rough cable length: number of standard errors plus share of the length. Chosen.
 constexpr double kCableErrors = 4, kCableShare = 0.05;
 
 double middle_of(const configuration::Rig& rig, std::size_t axis) {
@@ -43,10 +43,10 @@ experiment::Scenario in_the_middle(const configuration::Rig& rig, const std::str
   return scenario;
 }
 
-/// Scenario by scale of its amplitudes.
+/// Returns a scenario for a scale of its amplitudes.
 using Scaled = std::function<experiment::Scenario(double)>;
 
-/// The largest scale <= 1, to kResolution, with a safe motion.
+/// @return largest scale <= 1 with a safe motion, with an error of at most kResolution; 0: none
 double safe_scale(const configuration::Rig& careful, const Priors& priors, const Possible& possible,
                   const Scaled& scaled) {
   constexpr double kResolution = 1.0 / 64;
@@ -90,8 +90,8 @@ control::Excitation times(control::Excitation excitation, double scale) {
   return excitation;
 }
 
-/// Three steps away from the middle and back. A step back follows the step away after a whole number of
-/// periods of the load, so that both swings cancel.
+/// Adds three steps away from the middle and back. Each step back follows after a whole number of load
+/// periods, so that its swing cancels the swing of the step away.
 void add_steps(experiment::Scenario& scenario, std::size_t axis, double middle, double step,
                double spacing_s) {
   double at_s = kMotionBegin_s + kSines_s;

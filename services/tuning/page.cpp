@@ -90,7 +90,7 @@ report::Section estimates(const TuneResult& result) {
   return {.title = "Identified rig", .blocks = {std::move(table)}};
 }
 
-/// At most `kPoints` rows, so that the page stays small.
+/// Thins the values to at most kPoints, so that the page stays small.
 std::vector<double> thinned(const std::vector<double>& values) {
   constexpr std::size_t kPoints = 4000;
   const std::size_t step = values.size() / kPoints + 1;

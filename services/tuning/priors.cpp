@@ -8,7 +8,7 @@ namespace crane::tuning {
 configuration::Rig careful_rig(const configuration::Rig& rig, const Priors& priors) {
   configuration::Rig careful = rig;
   careful.limits.model_checks = false;
-  careful.sensing.filter_speed = {};  // a filter delays the damping of the position loop
+  careful.sensing.filter_speed = {};  // its delay would reduce the damping of the position loop
   auto& design = careful.design;
   design.crane.trolley_gain_mps2pv *= 1 + priors.gain_share;
   design.crane.slew_gain_radps2pv *= 1 + priors.gain_share;

@@ -1,7 +1,7 @@
 #pragma once
-/// What is known about a rig before it is tuned. The rig file states geometry, inertias, drives, encoders and
-/// limits. Gains, friction, load, cable length, delay and rest angles of the swing are unknown within the
-/// ranges below.
+/// Knowledge about a rig before its tuning. The rig file states geometry, inertias, drives, encoders and
+/// limits. Gains, friction, load, cable length, delay and rest angles of the swing are unknown within these
+/// ranges.
 #include <string>
 #include <vector>
 
@@ -14,11 +14,11 @@ struct Priors {
   double gain_share = 0.4;         ///< |true K_m / K_m of the rig file - 1|
   double friction_share = 0.4;     ///< largest Coulomb friction / volt limit of the drive
   double payload_low = 0.5;        ///< smallest true load mass / load mass of the rig file
-  double payload_high = 2;         ///< largest
+  double payload_high = 2;         ///< largest true load mass / load mass of the rig file
   double cable_low_m = 0.4;        ///< shortest true cable length
-  double cable_high_m = 2;         ///< longest
-  double delay_periods = 2;        ///< longest delay of a command, in addition to the tick of the loop
-  double rest_angle_rad = 0.0349;  ///< largest swing angle shown with the load at rest, 2 degrees
+  double cable_high_m = 2;         ///< longest true cable length
+  double delay_periods = 2;        ///< longest delay of a command, in addition to the one tick of the loop
+  double rest_angle_rad = 0.0349;  ///< largest measured swing angle of a load at rest, 2 degrees
 };
 
 /// Natural frequency of the position loop during the tuning, rad/s, critically damped. Chosen: with the
@@ -27,12 +27,11 @@ struct Priors {
 /// of the hold and of the speed lag by 33 degrees.
 inline constexpr double kLoop_radps = 7;
 
-/// The rig file of control loop and bridge during the tuning. Tracking PD without swing feedback. The assumed
-/// gains are the largest of the priors, so that the loop is never faster than designed. The assumed load is
-/// the lightest of the priors, because a position loop that compensates more than the force of the load
-/// excites the swing. The assumed friction is the largest of the priors and is not compensated.
-/// The checks that need a known model are off (limits.model_checks); all other limits are those of the rig
-/// file.
+/// The rig file of control loop and bridge during the tuning: tracking PD without swing feedback, with the
+/// largest gains, the lightest load and the largest friction of the priors. The loop is thus never faster
+/// than designed, and never compensates more than the force of the load, which would excite the swing. The
+/// friction is not compensated. Checks that need a known model are off (limits.model_checks); all other
+/// limits are those of the rig file.
 [[nodiscard]] configuration::Rig careful_rig(const configuration::Rig& rig, const Priors& priors);
 
 /// Stiffness of the position loop of careful_rig(), V/m or V/rad.

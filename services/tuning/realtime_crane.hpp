@@ -10,7 +10,7 @@
 namespace crane::tuning {
 
 struct RealtimeOptions {
-  std::filesystem::path directory;  ///< for the rig files of the processes
+  std::filesystem::path directory;  ///< directory for the rig files of the processes
   stack::Plant plant = stack::Plant::simulated;
   runtime::BusOptions bus;
   std::map<std::string, std::string> vendors;

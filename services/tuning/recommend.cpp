@@ -13,8 +13,8 @@
 namespace crane::tuning {
 namespace {
 
-constexpr std::size_t kTested = 4;  // entries whose margins are computed together
-constexpr double kDuration_s = 15;  // of a maneuver; a law that needs longer is not recommended
+constexpr std::size_t kTested = 4;  // number of entries whose margins are computed together
+constexpr double kDuration_s = 15;  // duration of a maneuver; a law that needs longer is not recommended
 
 /// Calls work(0) ... work(count - 1) on several threads. @throws the first exception of work
 void parallel(std::size_t count, unsigned processors, const std::function<void(std::size_t)>& work) {
@@ -56,11 +56,11 @@ experiment::ComparedRun run_of(const configuration::Rig& truth, const configurat
 class Recommender {
  public:
   explicit Recommender(const Search& search) : search_{search}, unchecked_{search.rig} {
-    // The margins test changed cranes, which differ from the model that these checks use.
+    // These checks would stop the changed cranes of the margins, which differ from the model.
     unchecked_.limits.model_checks = false;
   }
 
-  /// Tests entries by rank, until the next one is slower than the best tested one.
+  /// Tests the entries in the order of their rank until the next entry is slower than the best tested entry.
   Recommendation work() {
     rank();
     const auto settled = counts(result_)[0];
@@ -148,7 +148,8 @@ class Recommender {
       for (std::size_t m = 0; m < maneuvers; ++m) add(on_drawn, results[i * maneuvers + m]);
       const auto mean = mean_of(on_drawn.settling_s);
       if (!mean) return std::nullopt;
-      predicted.mean_s += (*mean - predicted.mean_s) / static_cast<double>(i + 2);  // the estimate counts too
+      // Running mean over the identified rig (number 1) and the drawn rigs.
+      predicted.mean_s += (*mean - predicted.mean_s) / static_cast<double>(i + 2);
       predicted.least_s = std::min(predicted.least_s, *mean);
       predicted.largest_s = std::max(predicted.largest_s, *mean);
     }

@@ -1,11 +1,11 @@
 #pragma once
 /// Compares laws and gains in simulated maneuvers of one rig and selects one of them.
 ///
-/// Every candidate runs the maneuvers on the rig; those that settle are ranked by their mean settling time.
-/// The best are tested with a longer delay, a larger gain, another cable length, load and friction. Those
-/// with the required margins run the maneuvers on rigs drawn from the standard errors of the identification.
-/// The recommendation is the entry with the least predicted settling time among those that settle on all of
-/// these rigs.
+/// Every candidate runs the maneuvers on the identified rig. Candidates that settle are ranked by their mean
+/// settling time. The best candidates are tested with longer delay, larger gain, and changed cable length,
+/// load and friction. Candidates with the required margins run the maneuvers on rigs drawn from the standard
+/// errors of the identification. The recommendation is the candidate with the shortest predicted settling
+/// time of those that settle on all drawn rigs.
 #include <array>
 #include <functional>
 #include <optional>
@@ -28,20 +28,21 @@ struct Entry {
   std::vector<std::optional<double>> settling_s{};  ///< by maneuver
   std::optional<double> mean_settling_s{};          ///< nothing: not all maneuvers settle
   double largest_swing_rad = 0;
-  std::string stopped_because{};     ///< of the first run that the supervisor stopped
-  std::optional<Margins> margins{};  ///< of the best entries
-  std::optional<Predicted>
-      predicted{};  ///< of entries with the required margins that settle on all drawn rigs
+  std::string stopped_because{};     ///< cause of the first run that the supervisor stopped
+  std::optional<Margins> margins{};  ///< nothing: not tested
+  /// Nothing: the entry lacks a required margin, or does not settle on all drawn rigs.
+  std::optional<Predicted> predicted{};
 };
 
 struct Recommendation {
   std::vector<std::string> maneuvers;
-  std::vector<Entry> entries;  ///< by rank: settled ones first
-  std::optional<std::size_t>
-      winner;  ///< nothing: no entry has the required margins and settles on all drawn rigs
+  std::vector<Entry> entries;  ///< by rank: entries that settle first
+  /// Index of the recommended entry; nothing: no entry has the required margins and settles on all drawn
+  /// rigs.
+  std::optional<std::size_t> winner;
 };
-/// @return number of entries that settle; of these, that have the required margins; of these, that settle on
-///   all drawn rigs
+/// @return number of entries that settle; of these with the required margins; of these that settle on all
+///   drawn rigs
 [[nodiscard]] std::array<std::size_t, 3> counts(const Recommendation& recommendation);
 
 struct Search {

@@ -10,15 +10,14 @@
 namespace crane::tuning {
 namespace {
 
-// A residual above this multiple of the quantisation noise needs an explanation. Chosen; hidden gantries with
-// one mode leave 1.0.
+// A residual above this multiple of the quantisation noise may hide a second mode. Chosen; hidden gantries
+// with one mode have a ratio of 1.0.
 constexpr double kUnexplained = 3;
 // A second mode must halve the residual. Chosen.
 constexpr double kExplains = 0.5;
-// The fit starts and stays above this share of the lower mass: without a lower mass its length has no effect.
-// Chosen.
+// Lower bound of the share of the lower mass in the fit: at 0 the lower length has no effect. Chosen.
 constexpr double kLeastShare = 0.02;
-// Standard errors by which the share of the lower mass differs from 0.
+// Standard errors by which the share of the lower mass must differ from 0.
 constexpr double kSignificant = 4;
 
 /// Quantisation noise of the compared swing angles, rms.
@@ -38,8 +37,8 @@ std::vector<FitParameter> parameters(const LoadFit& load, bool tower, double sha
   return list;
 }
 
-/// The two of six sets of initial values with the least residual. The first mode of each has about the
-/// frequency of the single pendulum.
+/// @return the two of six sets of initial values with the smallest residuals. The first mode of each set has
+/// about the frequency of the single pendulum.
 std::vector<std::vector<FitParameter>> best_initial_values(const std::vector<diagnosis::PreparedRun>& runs,
                                                            const WindowedFit& fit, const LoadFit& load,
                                                            bool tower) {

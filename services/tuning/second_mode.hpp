@@ -7,8 +7,8 @@
 
 namespace crane::tuning {
 
-/// @return nothing when the load swings as one pendulum: the residual of `load` is quantisation noise, or a
-/// lower mass does not explain it
+/// @return nothing when the load swings as a single pendulum: the residual of `load` is quantisation noise,
+/// or a second mode does not explain this residual
 /// @throws identification::IdentificationError
 [[nodiscard]] std::optional<SecondMode> find_second_mode(const std::vector<diagnosis::PreparedRun>& runs,
                                                          const configuration::Rig& rig, const LoadFit& load);

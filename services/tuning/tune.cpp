@@ -30,7 +30,7 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
 }
 
-/// Appends a motion; its time continues that of the rows so far.
+/// Appends the rows of a motion; their time continues the time of `all`.
 void append(recording::Table& all, const recording::Table& motion) {
   if (all.columns.empty()) {
     all = motion;
@@ -135,7 +135,7 @@ class Tuner {
     identified_ = true;
     if (const auto lines = outside(result_.identification.values, rig_, options_.priors); !lines.empty())
       refuse(lines);
-    // Read as the processes read the file: the design has values that follow from others.
+    // Parses the file as the processes do, because the design contains values derived from others.
     const auto tuned = configuration::parse_rig(
         configuration::to_toml(with_identified(rig_, result_.identification.values)), rig_.path);
     const auto& hoist = rig_.drives[plant::kHoist];
@@ -182,7 +182,7 @@ class Tuner {
     refuse({"the crane stopped during the motion: " + cause});
   }
 
-  /// Writes what is known.
+  /// Writes the results so far, then throws TuningRefused.
   [[noreturn]] void refuse(const std::vector<std::string>& reasons) {
     nlohmann::ordered_json json{{"refused", reasons}};
     if (identified_)

@@ -40,7 +40,7 @@ struct TuneOptions {
   std::vector<Candidate> candidates = tuning::candidates();  ///< compared laws and gains
   unsigned processors = 1;
   bool recommend = true;   ///< false: identification only
-  std::uint64_t seed = 1;  ///< of the drawn rigs; in tune.json
+  std::uint64_t seed = 1;  ///< seed of the drawn rigs; tune.json contains it
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 
@@ -49,7 +49,7 @@ struct TuneResult {
   Identification identification;
   Recommendation recommendation;
   double motion_s = 0;     ///< total duration of all motions
-  std::uint64_t seed = 1;  ///< of the drawn rigs
+  std::uint64_t seed = 1;  ///< seed of the drawn rigs
 };
 
 /// @throws TuningRefused, configuration::ConfigurationError for a rig that cannot be tuned, and exceptions of
@@ -57,7 +57,7 @@ struct TuneResult {
 [[nodiscard]] TuneResult tune(const configuration::Rig& rig, CraneAccess& crane, const TuneOptions& options);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const TuneResult& result, const configuration::Rig& rig);
-/// Reads the same rig file again.
+/// Text of tuned.toml: the tuned rig, with the standard errors as comments.
 [[nodiscard]] std::string rig_text(const TuneResult& result);
 [[nodiscard]] report::Page page_of(const TuneResult& result, const configuration::Rig& rig,
                                    const recording::Table& motion);

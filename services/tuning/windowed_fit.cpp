@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 
 constexpr int kMostSteps = 25, kMostHalvings = 8;
 constexpr double kConverged = 1e-7;         // relative decrease of the loss
-constexpr double kInitialStateStep = 1e-5;  // m, rad and per s: difference quotient of an initial state
-constexpr double kWorstCondition = 1e12;    // of the normalised normal matrix
+constexpr double kInitialStateStep = 1e-5;  // m, rad, m/s, rad/s: step of the difference quotient
+constexpr double kWorstCondition = 1e12;    // largest condition number of the normalised normal matrix
 
 struct Window {
   std::size_t run = 0, first = 0, rows = 0;
@@ -77,7 +77,7 @@ class Fitter {
       windows_.push_back({run, first, rows, {}});
   }
 
-  /// Measured minus replayed, of the compared outputs.
+  /// Measured minus replayed values of the compared outputs.
   VectorXd residual_of(const diagnosis::Replay& replay, const Window& window,
                        const std::vector<double>& initial_state) const {
     const auto simulated = diagnosis::simulated_outputs(runs_[window.run], fit_.part);
@@ -96,7 +96,7 @@ class Fitter {
 
   /// The replays of all runs for values of the parameters.
   struct Trial {
-    std::vector<PreparedRun> runs;  ///< with the output of the amplifiers as command; empty: as measured
+    std::vector<PreparedRun> runs;  ///< runs with the amplifier outputs as commands; empty: the measured runs
     diagnosis::Replays replays;
     const diagnosis::Replay& operator[](std::size_t run) const { return replays[run]; }
   };
@@ -164,7 +164,7 @@ class Fitter {
     linear.gradient += linear.slope.back().transpose() * linear.residual.back();
   }
 
-  /// Solution of the normal equations with columns of equal length. Directions without information stay.
+  /// Solves the normal equations with normalised columns. The step is 0 in directions without information.
   static VectorXd solved(const Linear& linear, const std::vector<bool>& is_free) {
     const VectorXd scale = linear.normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
     MatrixXd normal = scale.cwiseInverse().asDiagonal() * linear.normal * scale.cwiseInverse().asDiagonal();

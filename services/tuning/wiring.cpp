@@ -9,14 +9,14 @@
 namespace crane::tuning {
 namespace {
 
-constexpr double kMoved_counts = 20;  // motion that no quantisation explains
-constexpr double kMoved = 0.002;      // m or rad
-constexpr double kCertain = 0.7;      // share of the voltage at the first motion that is certainly friction
-constexpr double kIdle_v = 0.5;       // an axis at a smaller voltage must not move
+constexpr double kMoved_counts = 20;  // smallest motion in counts: more than quantisation
+constexpr double kMoved = 0.002;      // smallest motion, m or rad
+constexpr double kCertain = 0.7;      // lower bound of the friction / voltage at the first motion
+constexpr double kIdle_v = 0.5;       // largest voltage of an axis that must not move
 
 struct AxisData {
   std::vector<double> position, volts;
-  double threshold = 0;  ///< of a motion
+  double threshold = 0;  ///< smallest motion, m or rad
 };
 
 AxisData data_of(const recording::Table& table, const configuration::Rig& rig, std::size_t axis) {
@@ -27,7 +27,7 @@ AxisData data_of(const recording::Table& table, const configuration::Rig& rig, s
   return data;
 }
 
-/// First row that differs from the previous turning point by the threshold, in `direction`.
+/// First row that is beyond the previous extreme by more than the threshold in `direction` (1 or -1).
 std::optional<std::size_t> first_motion(const AxisData& data, int direction) {
   if (data.position.empty()) return std::nullopt;
   double extreme = data.position[0];
@@ -93,7 +93,7 @@ ProbeFinding examine_probe(const Motion& motion, const configuration::Rig& rig, 
     return finding;
   }
   finding.moved = forward && backward;
-  // Voltage at the first motion, or the largest that did not move the axis.
+  // Voltage at the first motion; without a motion, the largest voltage.
   const auto holds_v = [&](const std::optional<std::size_t>& motion_row) {
     return motion_row ? std::abs(volts_before(data, *motion_row)) : largest_volts(data);
   };

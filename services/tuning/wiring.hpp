@@ -8,10 +8,10 @@
 namespace crane::tuning {
 
 struct ProbeFinding {
-  bool moved = false;                 ///< in both directions
-  double friction_v = 0;              ///< mean voltage at the first motion of both directions
-  double friction_low_v = 0;          ///< at least this friction in both directions
-  std::vector<std::string> problems;  ///< names of wrong connections; empty: none
+  bool moved = false;         ///< true: the axis moved in both directions
+  double friction_v = 0;      ///< mean of the voltages at the first motion in each direction; 0: no motion
+  double friction_low_v = 0;  ///< lower bound of the friction in both directions
+  std::vector<std::string> problems;  ///< wrong connections, one text each; empty: none
 };
 
 /// Compares the voltage of the axis with the motion of all encoders.
@@ -21,7 +21,7 @@ struct ProbeFinding {
 
 /// Compares the measured swing with the swing that the motion of the support causes.
 /// @param axis  trolley: radial swing, slew: tangential swing
-/// @return names of wrong connections; empty: none
+/// @return wrong connections, one text each; empty: none
 [[nodiscard]] std::vector<std::string> examine_swing(const Motion& motion, const configuration::Rig& rig,
                                                      std::size_t axis);
 
