@@ -98,10 +98,11 @@ inline DrawnResult made_moves(const DrawnCase& drawn, const AdaptedRig& rig, uns
   return result;
 }
 
-/// Reversals within the last 4 s of a move from which on the axis counts as oscillating.
+/// Smallest number of reversals within the last 4 s of a move that counts as an oscillation.
 inline constexpr int kCycle = 6;
 
-/// True when the crane oscillates at rest without wind and noise, or in a late move of a case without both.
+/// True when the crane oscillates at rest without wind and noise, or, in a case without wind and noise, at
+/// the end of one of the moves from the sixth on.
 inline bool oscillates(const DrawnCase& drawn, const DrawnResult& result) {
   bool found = result.rest.late_reversals >= kCycle;
   if (drawn.exact.noise_counts == 0 && drawn.exact.more_terms.empty())

@@ -1,5 +1,6 @@
 /// The online adaptation in closed loop: convergence from a wrong friction compensation, hostile situations,
-/// what freezes it, and what it never does. Random values come from the seeds in the names of the failures.
+/// conditions that freeze the adaptation, and bounds that it keeps. A failure names the seed of its random
+/// values.
 #include "crane/control/adaptation.hpp"
 
 #include <gtest/gtest.h>
@@ -165,7 +166,7 @@ TEST(Adaptation, LeavesNoLimitCycleInRandomCranes) {
   }
 }
 
-/// The adaptation alone, with inputs of the test.
+/// The adaptation without a crane; the test sets its inputs.
 class Frozen : public testing::Test {
  protected:
   Frozen() {

@@ -1,6 +1,6 @@
 #pragma once
-/// A crane whose friction compensation adapts, without processes and bus: model with terms, encoders,
-/// converter, the filters of the bridge, one tick of delay, laws and moves one after the other.
+/// A crane with adaptive friction compensation, without processes and bus: model with terms, encoders,
+/// converter, filters of the bridge, one tick of delay, laws, and consecutive moves.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -95,7 +95,7 @@ class AdaptedCrane {
     tracking_->reset(measured_);
     anti_swing_->reset(measured_);
   }
-  /// Friction, payload or wind of the true crane change.
+  /// Changes friction, payload or wind of the true crane.
   void change(const std::function<void(AdaptedRig&)>& change_rig) {
     change_rig(rig_);
     rebuild();

@@ -29,8 +29,8 @@ struct Loop {
   }
 };
 
-/// A delay causes an infinite chain of roots whose damping ratio tends to zero. "Least damping" therefore
-/// means roots below eight load frequencies.
+/// A delay causes infinitely many roots, whose damping ratio tends to zero. "Least damping" therefore refers
+/// to the roots below eight load frequencies.
 constexpr double kHighest = 50;
 
 const Loop kLoops[] = {
@@ -94,9 +94,9 @@ double drive_acceleration(const Design& design, Motion motion, double x, double 
          (1 + c.trolley_mass_kg / c.jib_inertia_kgm2 * x * x);
 }
 
-/// The sampled axis starts on one mode of the characteristic equation, including its history, and must stay
-/// on it. Semi-implicit Euler with a first-order error: h |s|^2 t / 2 of the swing, largest near t = 1 / |Re
-/// s|.
+/// Starts the sampled axis on one mode of the characteristic equation, including the history of the delay,
+/// and expects that it stays on this mode. Semi-implicit Euler has a first-order error of h |s|^2 t / 2 of
+/// the swing, largest near t = 1 / |Re s|.
 void expect_mode_is_kept(const Loop& loop, Motion motion, Complex root) {
   Design design;
   design.period_s = 1e-4;

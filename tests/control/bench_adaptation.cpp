@@ -1,6 +1,6 @@
 /// Figures of docs/adaptation.md.
-///   bench_adaptation settle                settling of eight moves from wrong compensations, beside the
-///   exact one bench_adaptation random FIRST COUNT    random cranes from COUNT seeds: limit cycles, settling
+///   bench_adaptation settle              settling of eight moves from wrong and from exact compensations
+///   bench_adaptation random FIRST COUNT  random cranes from COUNT seeds: limit cycles, settling
 #include <cstdio>
 #include <cstdlib>
 #include <string>

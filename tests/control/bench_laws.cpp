@@ -35,7 +35,7 @@ void friction(benchmark::State& state) {
     benchmark::DoNotOptimize(friction_compensation_v(parameters, control_v = -control_v, 0));
 }
 
-/// A trolley that moves to and fro: every tick evaluates the force balance, every sixth tick updates the
+/// A trolley that moves back and forth: every tick evaluates the force balance, every sixth tick updates the
 /// filter.
 void adaptation(benchmark::State& state) {
   Design design;

@@ -1,5 +1,5 @@
-/// Times of the time-optimal planner for random moves of the dissertation's tower, without and with a similar
-/// plan as first guess. Prints outcome, iterations and processor time per plan: p50, p99, maximum.
+/// Times of the time-optimal planner for random moves of the dissertation's tower, with and without a similar
+/// plan as initial guess. Prints outcome, iterations and processor time per plan: p50, p99, maximum.
 ///   bench_planner [moves] [seed]
 #include <algorithm>
 #include <cstdio>

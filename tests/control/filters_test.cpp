@@ -38,9 +38,9 @@ TEST(Differentiators, ApproachTheIdealDifferentiatorAtLowFrequency) {
     }
 }
 
-/// Gain of each differentiator in closed form, from the integrator that it inverts: rectangular rule; three
-/// quarters rectangular and one quarter trapezoidal rule; Simpson's rule with the zero outside the unit
-/// circle reflected, which preserves the gain.
+/// Gain of each differentiator in closed form, as the inverse of its integrator: rectangular rule; 3/4
+/// rectangular and 1/4 trapezoidal rule; Simpson's rule, whose zero outside the unit circle is reflected,
+/// which preserves the gain.
 double backward_gain(double w) { return 2 * std::sin(w / 2); }
 double first_order_gain(double w) {
   return 2 * std::sin(w / 2) / std::sqrt(1 - 7.0 / 32 * (1 - std::cos(w)));
@@ -74,7 +74,7 @@ TEST(Differentiators, AreWithinOnePercentUpToTheirStatedFrequencies) {
   }
 }
 
-TEST(Differentiators, AreExactOnARampOnceSettled) {
+TEST(Differentiators, AreExactOnARampAfterTheTransient) {
   for (const auto& section :
        {backward_difference(kRate_hz), al_alaoui_first_order(kRate_hz), al_alaoui_second_order(kRate_hz)}) {
     FilterMemory memory = settled(section, 0);

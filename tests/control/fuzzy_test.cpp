@@ -28,7 +28,7 @@ TEST(FuzzyRules, WeighTheFourRulesThatFireByTheProductOfTheirDegrees) {
   EXPECT_NEAR(fuzzy_output(r, 0.2, -0.6), expected, 1e-12);
 }
 
-TEST(FuzzyRules, CountInputsBeyondTheLastLabelAsTheLastLabel) {
+TEST(FuzzyRules, SaturateInputsBeyondTheLastLabel) {
   EXPECT_EQ(fuzzy_output(kPrintedRules, 7, -1e300), fuzzy_output(kPrintedRules, 1, -1));
   EXPECT_TRUE(std::isnan(fuzzy_output(kPrintedRules, NAN, 0)));
 }

@@ -263,8 +263,7 @@ TEST(ForwardGain, KeepsTheFirstDemandOfAnyMoveWithinTheDrive) {
 }
 
 TEST(ForwardGain, IsTheSameInTrackingAndAntiSwingThroughWholeMoves) {
-  // Compares the sum of both laws with the unsplit law. A law that starts in the middle of a move gets the
-  // same K.
+  // Compares the sum of both laws with the unsplit law. A law that starts during a move must use the same K.
   const Design design = design_with_friction();
   const auto tracking = make_full_tracking(design);
   auto anti_swing = make_full_anti_swing(design);

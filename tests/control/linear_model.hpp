@@ -1,5 +1,5 @@
 #pragma once
-/// The linear models (2.28)-(2.31) in closed loop with a law. Tests of poles use these models as oracle.
+/// The linear models (2.28)-(2.31) of H. M. Omar in closed loop with a law: the oracle of the tests of poles.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <complex>
@@ -42,8 +42,7 @@ inline double volts(const Controller& controller, const Design& design, Motion m
   return sum;
 }
 
-/// Closed loop at constant x and L. The controllers are linear there, so that unit inputs give the exact
-/// gains.
+/// Closed loop at constant x and L, where the controllers are linear: unit inputs give the exact gains.
 inline Eigen::Matrix4d closed_loop(const Controller& controller, const Design& design, Motion motion,
                                    double x) {
   const auto& c = design.crane;

@@ -31,7 +31,7 @@ plant::StateArray derivative(const plant::Parameters& crane, const plant::StateA
           a.trolley_mps2, a.radial_radps2, a.slew_radps2, a.tangential_radps2, 0};
 }
 
-/// Runge-Kutta, one tick in steps of 1 ms.
+/// Integrates one tick with Runge-Kutta steps of 1 ms.
 plant::State advanced(const plant::Parameters& crane, const plant::State& state, const Volts& v,
                       double tick_s) {
   auto y = plant::to_array(state);
@@ -67,7 +67,7 @@ Trajectory trajectory(const Controller& controller, const Maneuver& maneuver, do
   return {axis(maneuver.from_m, maneuver.to_m), axis(0, maneuver.to_rad), step_profile(1, 1)};
 }
 
-/// Within 2 % of the move (for an unmoved axis 2 % of 0.75 m or 90 degrees), both swings within 0.5 degrees.
+/// True within 2 % of the move (for an unmoved axis 2 % of 0.75 m or 90 degrees) and 0.5 degrees of swing.
 bool settled(const plant::State& s, const Maneuver& maneuver) {
   return std::abs(s.trolley_m - maneuver.to_m) < 0.02 * 0.75 &&
          std::abs(s.slew_rad - maneuver.to_rad) < 0.02 * pi / 2 &&
@@ -105,7 +105,7 @@ double settling_time_s(const Controller& controller, const Design& design, const
 void expect_settling_s(const char* name, double forward_gain, const std::array<double, 3>& expected_s) {
   Design design;
   design.full_state_forward_gain_vpm = forward_gain;
-  // no voltage limit lowers K; K = 8 would saturate the slew drive in maneuvers 2 and 3
+  // A high voltage limit keeps K at 8, which would saturate the slew drive in maneuvers 2 and 3.
   design.volt_limit_v.fill(1000);
   for (std::size_t i = 0; i < 3; ++i)
     // Tolerance of two ticks: sampling of the settling time, and rounding of the printed value.

@@ -74,7 +74,7 @@ inline double counted(double value, double counts_per_unit) {
   return std::round(value * counts_per_unit) / counts_per_unit;
 }
 
-/// Simulates one move. @param reference_at_s  reference at a time after the request
+/// Simulates one move. @param reference_at_s  returns the reference at a time in s after the request
 inline TestResult run_move(const TestCrane& crane, const Controller& controller, const TestMove& move,
                            const std::function<Reference(double)>& reference_at_s) {
   const double dt = crane.design.period_s;

@@ -37,7 +37,7 @@ void expect_smooth(const AxisProfile& profile, const AxisLimits& limits) {
   EXPECT_NEAR(before.speed, after.speed, 1e-9 * (1 + limits.speed));
 }
 
-TEST(SCurve, ArrivesWithoutEverLeavingItsLimitsAndUsesItsJerk) {
+TEST(SCurve, ArrivesWithinItsLimitsAndUsesTheWholeJerk) {
   const unsigned seed = 42;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-2, 2), exponent(-2, 1);

@@ -1,5 +1,5 @@
-/// Shaped references move a linear load without damping, phi'' + w^2 phi = x''/L, integrated in time. The
-/// residual swing is compared with the formulas and insensitivities of Singer, Seering and Singhose.
+/// Moves an undamped linear load, phi'' + w^2 phi = x''/L, with shaped references and compares the residual
+/// swing with the formulas and insensitivities of Singer, Seering and Singhose.
 #include "crane/control/shaper.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ double swing_left(const Shaper& shaper, const AxisProfile& profile, double ratio
   return std::hypot(swing, rate / w);
 }
 
-/// Residual swing / residual swing of the unshaped profile, whose short ramp excites the swing at all ratios.
+/// Residual swing relative to the unshaped profile, whose short ramp excites the swing at all ratios.
 double share_left(Shaping shaping, double ratio) {
   const AxisProfile profile = timed_profile(0, 0.5, 0.45, 0.15, 0.03);
   return swing_left({shaping, kPeriod_s}, profile, ratio) / swing_left({}, profile, ratio);

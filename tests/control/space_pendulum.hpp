@@ -1,6 +1,6 @@
 #pragma once
-/// The load as a point mass on a massless cable, in the inertial frame. It is a second derivation of the
-/// swing, without swing angles and without a rotating frame:
+/// The load as a point mass on a massless cable, in the inertial frame: a derivation of the swing that is
+/// independent of swing angles and of a rotating frame:
 ///   r = P + L n, |n| = 1   =>   n'' = (b - (b n) n) / L - 2 L'/L n' - |n'|^2 n,   b = (0, 0, -g) - P''
 /// P is the suspension point (x cos gamma, x sin gamma, 0).
 #include <Eigen/Core>
@@ -16,8 +16,7 @@ class SpacePendulum {
   /// Hangs at rest. @param cable_ratio  length of this cable / length of the reference
   explicit SpacePendulum(double cable_ratio = 1) : ratio_{cable_ratio} {}
 
-  /// Advances by one tick from reference `a` to reference `b`; the acceleration of each axis is constant in
-  /// between.
+  /// Advances by one tick from reference `a` to reference `b`, with constant acceleration of each axis.
   void step(const Reference& a, const Reference& b, double period_s) {
     constexpr int kParts = 4;
     const double h = period_s / kParts;
@@ -37,7 +36,7 @@ class SpacePendulum {
   [[nodiscard]] double tangential_rad() const { return std::asin(in_jib().y()); }
   /// Angle between cable and vertical.
   [[nodiscard]] double swing_rad() const { return std::acos(std::clamp(-state_[2], -1.0, 1.0)); }
-  /// Largest swing of a crane at rest with the present energy of the load.
+  /// Amplitude of the swing that the present energy of the load causes when the crane is at rest.
   [[nodiscard]] double residual_rad() const {
     const double share = state_.tail<3>().squaredNorm() * cable_m_ / (2 * kGravity) + 1 + state_[2];
     return std::acos(std::clamp(1 - share, -1.0, 1.0));

@@ -70,8 +70,8 @@ struct Motions {
 
 class EveryMotion : public testing::TestWithParam<Motions> {};
 
-/// The residual swing is zero for small swing angles and a cable without acceleration. Large swings of 20
-/// degrees have a longer period, and the equation of the path neglects L''.
+/// The residual swing is zero for small angles and L'' = 0. It is not zero at large angles (20 degrees),
+/// which have a longer period, and with L'', which the equation of the path neglects.
 TEST_P(EveryMotion, LeavesTheLoadAtRestAfterEveryHistory) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     Crane crane{tower_stick(Shaping::zv, GetParam().used)};

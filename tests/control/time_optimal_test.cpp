@@ -74,7 +74,7 @@ TEST(TimeOptimalTower, AcceleratesAsThePlantDoes) {
     PlanState rate;
     rate << s.tail<4>(), wanted.trolley_mps2, wanted.radial_radps2, wanted.slew_radps2,
         wanted.tangential_radps2;
-    // The plant eliminates the swing, the planner inverts M. The results therefore differ by rounding errors.
+    // The plant eliminates the swing, the planner inverts the mass matrix: the results differ by rounding.
     constexpr double kRounding = 1e-10;
     EXPECT_LT((rate_of(at) - rate).norm(), kRounding * (1 + rate.norm())) << "case " << i;
   }

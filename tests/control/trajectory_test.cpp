@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPrintedDigits = 5e-5;
 
-TEST(TimedProfile, HasTheNumbersOf354And355) {
+TEST(TimedProfile, HasTheNumbersOfEquations354And355) {
   const double period_s = 2 * std::numbers::pi * std::sqrt(1 / 9.8);
   const auto trolley = timed_profile(0.25, 1.0, period_s, period_s / 4);
   EXPECT_NEAR(trolley.speed, 0.4982, kPrintedDigits);
@@ -23,7 +23,7 @@ TEST(TimedProfile, HasTheNumbersOf354And355) {
   EXPECT_NEAR(slew.acceleration, 2.0796, kPrintedDigits);
 }
 
-TEST(LimitedProfile, TakesTheTimeOf343) {
+TEST(LimitedProfile, TakesTheTimeOfEquation343) {
   const auto profile = limited_profile(0, 0.75, {0.4982, 0.9929});
   EXPECT_NEAR(profile.duration_s(), 0.75 / 0.4982 + 0.4982 / 0.9929, 1e-12);
 }
@@ -48,7 +48,7 @@ void expect_sound(const AxisProfile& profile, const AxisLimits& limits) {
     const auto now = profile.at(t), next = profile.at(t + tick);
     EXPECT_LE(std::abs(now.speed), limits.speed * (1 + 1e-12));
     EXPECT_LE(std::abs(now.acceleration), limits.acceleration * (1 + 1e-12));
-    // Continuous position and speed: the change of one tick is bounded by the limits.
+    // Position and speed are continuous: the limits bound their change per tick.
     EXPECT_LE(std::abs(next.position - now.position), limits.speed * tick + 1e-12 * size);
     EXPECT_LE(std::abs(next.speed - now.speed), limits.acceleration * tick * (1 + 1e-9) + 1e-12);
     // The speed is the derivative of the position.
@@ -67,7 +67,7 @@ TEST(LimitedProfile, ArrivesWithoutEverLeavingItsLimits) {
   }
 }
 
-TEST(Trajectory, EndsOnAllAxesAtOnceAndStillWithinLimits) {
+TEST(Trajectory, EndsOnAllAxesAtTheSameTimeWithinLimits) {
   const AxisLimits trolley{0.5, 1}, slew{1, 2}, hoist{0.1, 0.2};
   Trajectory own{limited_profile(0.3, 1.05, trolley), limited_profile(0, -1.57, slew),
                  limited_profile(1, 1, hoist)};

@@ -71,7 +71,7 @@ TEST(ZeroPhase, IsTheSameBackwardsInTime) {
   const auto one = zero_phase_butterworth(series, 0.05);
   auto other = zero_phase_butterworth(reversed, 0.05);
   std::reverse(other.begin(), other.end());
-  // Far from the ends, where the order of the passes has no effect.
+  // Compared far from the ends, where the order of the passes has no effect.
   for (std::size_t k = 500; k < 1500; ++k) EXPECT_NEAR(one[k], other[k], 1e-9) << "seed " << seed << " " << k;
 }
 

@@ -1,4 +1,4 @@
-// Commands that the loop of the bridge accepts, and its reports about the relay.
+// Commands that the loop of the bridge accepts, and reports of the bridge about the relay.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -29,7 +29,7 @@ msg::Command command_of(std::uint64_t tick, double trolley_v) {
 /// Clock of the computer.
 std::int64_t now_ns = 0;
 
-/// A board during whose latch of the inputs the computer pauses.
+/// A board that simulates a pause of the computer while it latches the inputs.
 class PausingBoard final : public EmulatedBoard {
  public:
   using EmulatedBoard::EmulatedBoard;
@@ -51,7 +51,7 @@ class BridgeLoop : public testing::Test {
     if (state) latched_ns_[number] = state->header.sample_time_ns;
     return state.value_or(msg::State{});
   }
-  /// Publishes the command with the time at which its tick was latched in this run.
+  /// Publishes a command with the latch time of its tick in this run.
   void publish(msg::Command command) {
     command.header.sample_time_ns = latched_ns_[command.header.tick];
     EXPECT_TRUE(commands_.publish(command));
@@ -105,7 +105,7 @@ TEST_F(BridgeLoop, ACommandForAnEarlierBridgeIsIgnored) {
   }
 }
 
-/// DDS Security does not prevent that recorded commands are sent again to a bridge that has restarted.
+/// DDS Security does not prevent a replay of recorded commands to a bridge that has restarted.
 TEST_F(BridgeLoop, ARecordedCommandOfAnEarlierRunIsIgnored) {
   for (std::uint64_t number = 0; number < 3 * kQuiet_ticks; ++number) {
     const auto state = tick(number);

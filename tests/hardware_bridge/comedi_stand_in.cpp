@@ -152,7 +152,7 @@ lsampl_t comedi_get_maxdata(comedi_t*, unsigned subdevice, unsigned) {
   return subdevice == ComediStandIn::kCountersAt ? stand_in().largest_count : ComediStandIn::kLargestCode;
 }
 int comedi_get_n_ranges(comedi_t*, unsigned, unsigned) { return 2; }
-/// Ranges: first 5 V; then a range with the steps of the 13-bit converters of the simulated crane.
+/// Output ranges: ±5 V, then a range with the step of the 13-bit converters of the simulated crane.
 comedi_range* comedi_get_range(comedi_t*, unsigned, unsigned, unsigned range) {
   static comedi_range found;
   const double limit_v = range == ComediStandIn::kGoodRange ? stand_in().range_v : 5;

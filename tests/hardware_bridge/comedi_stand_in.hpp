@@ -36,7 +36,7 @@ class ComediStandIn {
   double range_v = 10;  ///< limit of the suitable range
   unsigned stuck_counter = kChannels;
   bool answers = true;
-  bool fixed_lines = false;  ///< true: the subdevices are inputs or outputs only
+  bool fixed_lines = false;  ///< true: the direction of the digital lines cannot be set
 
   // Implementations of the functions of libcomedi.
   void note(const std::string& call) { calls_.push_back(call); }

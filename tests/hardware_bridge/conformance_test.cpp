@@ -186,7 +186,7 @@ TEST_P(Conformance, CountsInTheDirectionOfItsSign) {
 }
 
 /// Drives the trolley across the wrap of the counter, forwards and back.
-TEST_P(Conformance, CountsThroughTheEndOf24BitsBothWays) {
+TEST_P(Conformance, CountsThroughTheWrapOf24BitsInBothDirections) {
   rig_.encoders[0].counts_per_unit = 0x7FFFFF / (rig_.start.position[0] + 0.02);
   put_on_bench(rig_);
   CountUnwrapper unwrapper;

@@ -1,5 +1,5 @@
-// The process of a driver ends in every possible way; the rig is another process. The time of the rig
-// advances only by requests, so that the test does not depend on the speed of the computer.
+// Ends the process of a driver in every possible way. The rig is another process, whose time advances only on
+// request, so that the test does not depend on the speed of the computer.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -97,7 +97,7 @@ TEST_P(Death, BySigkillLeavesTheVoltsAndTheRelayClosesTheBrakesWithin50Ms) {
   EXPECT_TRUE(braked());
 }
 
-TEST_P(Death, ByAnExceptionThatNobodyCatchesIsSigabrtAndTheRelayClosesTheBrakesWithin50Ms) {
+TEST_P(Death, ByAnUncaughtExceptionIsSigabrtAndTheRelayClosesTheBrakesWithin50Ms) {
   ASSERT_FALSE(braked());
   ::kill(child_, SIGUSR1);
   const int status = serve_to_the_end();
@@ -162,7 +162,7 @@ TEST(RigServer, MissesNoToggleDuringADelayOfItsStep) {
   EXPECT_FALSE(server.rig().crane().read().watchdog_dropped);
 }
 
-/// Volts that ended before the next step of the rig have nevertheless moved the crane.
+/// A voltage that ended before the next step of the rig must nevertheless have moved the crane.
 TEST(RigServer, AppliesTheVoltsOfAPauseAtTheirTimes) {
   auto rig = emulated_rig();
   rig.wiring.relay_timeout_s = 1;  // the computer may be busy

@@ -41,7 +41,7 @@ class Hand {
         0, {.counts = counts(), .active = active(), .requested = requested, .free = free, .rests = !free});
     if (found) change = found;
   }
-  /// Search, back-off, approach, back-off. Starts 0.05 m from the mark, on either side.
+  /// Homes the axis: search, back-off, approach, back-off. Starts 0.05 m from the mark, on either side.
   void run_course(double approach_mps = 0.01) {
     const double direction = drive_.homing.direction();
     const double to_mark_m = std::abs(true_m - drive_.homing.position);
@@ -184,7 +184,7 @@ TEST_F(WithoutAZero, MoreThanCreepingSpeedIsStoppedWithin50Ms) {
   EXPECT_EQ(timeline.line.reason(), Reason::not_homed);
 }
 
-TEST_F(WithoutAZero, ABrakeIsReleasedForNothingButHoming) {
+TEST_F(WithoutAZero, ABrakeIsReleasedOnlyForHoming) {
   timeline.homing = false;
   EXPECT_FALSE(timeline.tick());
   EXPECT_EQ(timeline.line.reason(), Reason::not_homed);

@@ -1,5 +1,5 @@
-// LastLine, fault by fault: detection time and reason. Each timeline also runs without its check and must
-// then not be stopped. This proves that every check is necessary and that no check replaces another check.
+// Detection time and reason of LastLine for each fault. Each timeline also runs without the check of its
+// fault and must then not be stopped, which proves that every check is necessary.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -16,7 +16,7 @@ struct Fault {
   Reason reason;
   int longest_ticks;  ///< from the onset until the outputs are safe
   std::function<void(Timeline&)> begin;
-  /// Continues the run; the first of these ticks is the first one with the fault.
+  /// Continues the run with the fault from the first of these ticks on.
   std::function<void(Timeline&, int)> every_tick = [](Timeline&, int) {};
   double trolley_m = 0.6;
   friend std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.name; }
@@ -75,8 +75,7 @@ std::vector<Fault> faults() {
 
 class LastLineFault : public testing::TestWithParam<Fault> {
  protected:
-  /// Ordinary ticks, then the fault. @return ticks from its onset until the crane was stopped; -1: not
-  /// stopped
+  /// Runs ordinary ticks, then the fault. @return ticks from the onset of the fault to the stop; -1: no stop
   static int run(Timeline& timeline, const Fault& fault) {
     timeline.start_at(fault.trolley_m);
     EXPECT_TRUE(timeline.tick(40)) << name_of(timeline.line.reason());

@@ -43,7 +43,7 @@ TEST(LastLine, HoldsTheLastCommandForFiveTicksThenLatches) {
   EXPECT_FALSE(timeline.tick(10)) << "commands that come back do not restart motion";
 }
 
-TEST(LastLine, IsReleasedByAnEarlierResetOnceTheSecondWriterHasGone) {
+TEST(LastLine, IsReleasedByAnEarlierResetAfterTheSecondWriterHasGone) {
   Timeline timeline;
   timeline.tick(5);
   timeline.second_writer = true;

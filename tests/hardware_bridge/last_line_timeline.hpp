@@ -43,10 +43,10 @@ class Timeline {
   bool limit_high = false;
   bool second_writer = false;
   double late_s = 0;  ///< delay of the sample of this tick
-  /// true: position unknown; being homed; below its mark
+  /// true: the position is unknown; the axis is being homed; the axis is below its mark
   bool unknown = false, homing = false, mark = false;
 
-  /// Moves the trolley, with a new LastLine without history.
+  /// Places the trolley and starts a LastLine without history.
   void start_at(double position_m) {
     line = LastLine{last_line_parameters(rig_), checks_};
     outputs = {};
@@ -98,7 +98,7 @@ class Timeline {
     observation.mark[0] = mark;
     outputs = line.decide(command, now, observation);
   }
-  /// Without friction; the trolley coasts while the brake is open.
+  /// Integrates the motion without friction: the trolley coasts while the brake is open.
   void move() {
     const bool open = brake_opens && outputs.brake_release[0];
     if (open)

@@ -74,7 +74,8 @@ TEST(Coordinate, GivesTheSlopeOfARampWithLateAndSkippedTicks) {
 }
 
 TEST(Coordinate, PublishesTheFilteredPositionIfConfigured) {
-  // Butterworth of order 2 at 5 Hz delays a slow ramp by sqrt(2) / (2 pi 5 Hz) = 45 ms.
+  // A second-order Butterworth filter with a cut-off of 5 Hz delays a slow ramp by sqrt(2) / (2 pi 5 Hz) = 45
+  // ms.
   Coordinate bare{{.channel = 0, .counts_per_unit = 1e5, .sign = 1}, 0.01, 0.05};
   Coordinate filtered{{.channel = 0, .counts_per_unit = 1e5, .sign = 1}, 0.01, 0.05, true};
   for (int i = 0; i < 400; ++i) {

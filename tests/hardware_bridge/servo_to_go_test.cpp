@@ -1,4 +1,4 @@
-// Port accesses of the driver, compared with the register facts as numbers.
+// Compares the port accesses of the driver with register addresses and values as literal numbers.
 #include "crane/boards/servo_to_go.hpp"
 #include "crane/bridge/converter.hpp"
 
@@ -81,7 +81,7 @@ TEST_F(Card, ReadsEveryCounterAfterLatchingItsPair) {
   EXPECT_EQ(log_.size(), 3U + 2U + 5U * 3U);
 }
 
-/// Encoders with one edge per port access, much faster than any drive.
+/// The encoders move by one edge per port access, much faster than any drive.
 TEST_F(Card, ReadsConsistentCountersThatAreLatchedWithinThreePortAccesses) {
   constexpr unsigned kSeed = 7;
   std::mt19937 random{kSeed};

@@ -21,7 +21,7 @@ std::string private_name(const char* what) {
   return "/crane_shared_file_test_" + std::to_string(::getpid()) + "_" + what;
 }
 
-/// Runs `action` in a process of its own. @return its result; false when the process is killed
+/// Runs `action` in a child process. @return result of `action`; false when the process is killed
 bool in_a_process(const std::function<bool()>& action) {
   const auto child = ::fork();
   if (child == 0) ::_exit(action() ? 0 : 1);
@@ -33,7 +33,7 @@ bool as_another_user(const std::function<bool()>& attack) {
   return in_a_process([&] { return ::setuid(kNobody) == 0 && attack(); });
 }
 
-/// Gives this process a full /dev/shm of its own.
+/// Gives this process a private, full /dev/shm.
 bool fill_shared_memory() {
   if (::unshare(CLONE_NEWNS) != 0 || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
       ::mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=4k") != 0)
@@ -99,7 +99,7 @@ TEST_F(SharedFileTest, IsRefusedWhenTheMemoryOfTheComputerIsFull) {
   }));
 }
 
-/// The other user was first: its program could change the rig.
+/// Another user created the file first: a program of this user could change the rig.
 TEST_F(SharedFileTest, OfAnotherUserIsRefused) {
   if (::geteuid() != 0) GTEST_SKIP() << "another user needs root";
   ASSERT_TRUE(as_another_user([this] {

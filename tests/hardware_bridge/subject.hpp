@@ -23,7 +23,7 @@ inline configuration::Rig emulated_rig() {
 
 inline constexpr std::array<double, kDrives> kNothing{};
 
-/// One board, and what an observer of its crane measures.
+/// One board with its crane, observed from outside.
 class Subject {
  public:
   virtual ~Subject() = default;
@@ -31,7 +31,7 @@ class Subject {
   [[nodiscard]] virtual simulator::SimulatedBoard& crane() = 0;
   /// Volts at the amplifiers.
   [[nodiscard]] virtual std::array<double, kDrives> amplifier_v() = 0;
-  /// Ends the program of the board in order; the crane continues.
+  /// Ends the program of the board as at a normal exit; the crane continues.
   virtual void close() = 0;
   virtual void pass(std::int64_t duration_ns) = 0;
 
@@ -61,7 +61,7 @@ class SimulatedSubject final : public Subject {
   Board& board() override { return board_; }
   simulator::SimulatedBoard& crane() override { return board_; }
   std::array<double, kDrives> amplifier_v() override { return board_.converter_v(); }
-  void close() override { board_.make_safe(); }  // the crane of this board ends with it
+  void close() override { board_.make_safe(); }  // not destroyed, because the board contains the crane
   void pass(std::int64_t duration_ns) override { board_.advance_to(board_.now_ns() + duration_ns); }
 
  private:

@@ -1,5 +1,5 @@
-// The driver with real in and out instructions. Without permission each instruction faults; the signal
-// handler of this program emulates the card, and the driver continues.
+// Runs the driver with real in and out instructions. Without permission each instruction faults; the signal
+// handler of this program then emulates the card and lets the driver continue.
 #include <sched.h>
 #include <sys/io.h>
 #include <sys/mman.h>
@@ -62,7 +62,7 @@ void emulate(int /*signal*/, siginfo_t* /*info*/, void* context) {
 
 }  // namespace
 
-/// Replaces the function of the C library, so that the kernel is not called.
+/// Replaces the function of the C library, so that the test needs no permission of the kernel.
 extern "C" int ioperm(unsigned long /*from*/, unsigned long /*count*/, int /*on*/) noexcept {
   if (permission_refused_with == 0) return 0;
   errno = permission_refused_with;
@@ -85,7 +85,7 @@ class TrappedCard : public testing::Test {
 
   configuration::Rig rig_ = emulated_rig();
   WiredRig crane_{rig_};
-  /// CTest runs tests beside each other: each test with a lock has its own address.
+  /// Address of the card, different for each test with a lock, because CTest runs tests in parallel.
   void move_card_to(std::uint16_t base_address) {
     rig_.wiring.base_address = base_address;
     card_.emplace(base_address, crane_.card(), crane_);
@@ -134,7 +134,7 @@ TEST_F(TrappedCard, WithoutPermissionIsRefusedWithTheRemedy) {
                                              testing::HasSubstr("cap_sys_rawio")));
 }
 
-TEST_F(TrappedCard, OnAKernelWithoutPortAccessIsRefusedWithWhatTheKernelLacks) {
+TEST_F(TrappedCard, OnAKernelWithoutPortAccessIsRefusedWithTheMissingOption) {
   EXPECT_THAT(refusal(ENOSYS), testing::AllOf(testing::HasSubstr("CONFIG_X86_IOPL_IOPERM"),
                                               testing::Not(testing::HasSubstr("run as root"))));
 }

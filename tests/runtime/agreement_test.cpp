@@ -1,4 +1,4 @@
-// Detection of the process that has another rig file or controller, and propagation of a difference to the
+// Detection of a process with another rig file or controller, and propagation of this difference to the
 // supervisor.
 #include "crane/runtime/agreement.hpp"
 

@@ -14,7 +14,7 @@ namespace crane::runtime::test {
 
 class ComponentBench {
  public:
-  /// @param controller  name of the registry; empty: the rig file's
+  /// @param controller  name of the registry; empty: the controller of the rig file
   ComponentBench(const ComponentSpec& spec, configuration::Rig rig, const std::string& controller = {},
                  Clock clock = Clock::lockstep)
       : rig_{std::move(rig)},

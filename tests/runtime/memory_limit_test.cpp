@@ -1,4 +1,5 @@
-/// A process whose memory grows is ended; a process that allocates and frees the same amount continues.
+/// The kernel ends a process whose memory grows; a process that allocates and frees the same amount
+/// continues.
 #include "crane/runtime/memory_limit.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t kPiece_bytes = std::size_t{1} << 20U;
 constexpr int kOutOfMemory = 7;
 
-/// Exit status of a process with the limit that does `work`.
+/// Runs `work` in a child process with the limit. @return exit status
 int exit_after(const std::function<void()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -35,7 +36,7 @@ int exit_after(const std::function<void()>& work) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-/// Allocates `bytes` in pieces of which at most `most_held` exist at the same time.
+/// Allocates `bytes` in total, at most `most_held` at the same time.
 void allocate(std::size_t bytes, std::size_t most_held) {
   std::vector<std::unique_ptr<char[]>> held(most_held);
   for (std::size_t i = 0; i < bytes / kPiece_bytes; ++i)

@@ -44,7 +44,7 @@ TEST_F(PortsTest, RefusesAWriterThatTheTopicDoesNotAllow) {
   EXPECT_THROW((void)ports.output(topics::command), std::logic_error);
 }
 
-TEST_F(PortsTest, NamesWhatTheSpecificationDeclaresAndTheComponentDoesNotUse) {
+TEST_F(PortsTest, ReportsDeclaredTopicsThatTheComponentDoesNotUse) {
   const auto spec = tracking();
   auto ports = this->ports(spec);
   (void)ports.loop_input(topics::state);

@@ -131,7 +131,7 @@ class InboxInRealTime : public Inbox {
     now_ns_ = header_of(tick_).sample_time_ns;
     inbox_.stepped(header_of(tick_), now_ns_);
   }
-  /// @return true when a request of an operator who saw the tick `seen` is executed now
+  /// @return true when the inbox returns a request whose operator saw tick `seen`
   bool executes(const msg::Header& seen, crane_RequestKind kind = crane_REQUEST_ARM) {
     seen_ = seen;
     send(++id_, 0, kind);
@@ -153,7 +153,7 @@ TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOp
   for (; tick_ < 30; step()) EXPECT_FALSE(due(tick_));
 }
 
-/// A connection that was lost for some seconds delivers a request after its operator has given up.
+/// A connection that was lost for seconds may deliver a request after its operator has given up.
 TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterItsOperatorSawTheCrane) {
   run_until(1000);
   EXPECT_TRUE(executes(header_of(1000)));
@@ -162,7 +162,7 @@ TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterItsOper
   EXPECT_FALSE(executes(header_of(1001))) << "a tick that has not begun";
 }
 
-/// A supervisor that was suspended finds the requests of the meantime in its queue.
+/// A supervisor that was suspended finds outdated requests in its queue.
 TEST_F(InboxInRealTime, CountsTheTimeInWhichNoTickArrives) {
   run_until(1000);
   now_ns_ += 2'000'000'000;
@@ -171,7 +171,7 @@ TEST_F(InboxInRealTime, CountsTheTimeInWhichNoTickArrives) {
   EXPECT_FALSE(executes(header_of(1000)));
 }
 
-/// DDS Security does not prevent that a recorded request is sent again to a supervisor that has restarted.
+/// DDS Security does not prevent a replay of a recorded request to a supervisor that has restarted.
 TEST_F(InboxInRealTime, RefusesARequestOfAnEarlierRunWithTheNumberOfAPresentTick) {
   run_until(500);
   constexpr std::int64_t kYesterday_ns = kBegin_ns - 86'400'000'000'000;
@@ -196,7 +196,7 @@ TEST_F(InboxInRealTime, RefusesARequestThatNamesTheTickBeforeAStopWithoutATick) 
   EXPECT_FALSE(executes(header_of(100)));
 }
 
-/// Ticks begin at 0 again.
+/// After the restart, the ticks begin at 0 again.
 TEST_F(InboxInRealTime, RefusesATickOfTheBridgeBeforeARestart) {
   run_until(5000);
   const auto before = header_of(5000);
@@ -214,7 +214,7 @@ TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorNamesNoTick) {
   EXPECT_FALSE(executes({}));
 }
 
-TEST_F(InboxInRealTime, AStopActsHoweverOldItIs) {
+TEST_F(InboxInRealTime, AStopOfAnyAgeActs) {
   run_until(1000);
   for (std::uint64_t tick = 0; tick < 2; ++tick) EXPECT_TRUE(executes(header_of(tick), crane_REQUEST_STOP));
 }

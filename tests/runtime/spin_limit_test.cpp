@@ -1,4 +1,4 @@
-/// A real-time process that spins is ended; a process that waits continues.
+/// The kernel ends a real-time process that spins; a process that waits continues.
 #include "crane/runtime/spin_limit.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ void compute_for(std::chrono::nanoseconds duration) {
   }
 }
 
-/// Exit status of a process with SCHED_FIFO that does `work`, as of waitpid().
+/// Runs `work` in a child process with SCHED_FIFO. @return wait status, as of waitpid()
 int status_after(const std::function<void()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -63,7 +63,7 @@ TEST_F(TickJoining, ExtendsTheWaitOnceByHalfTheBoundAfterALateWakeUp) {
   auto join = this->join(false);
   state(1);
   EXPECT_EQ(join.poll(0), JoinResult::waiting);
-  // after a pause, arrived samples may not have been delivered yet
+  // After a pause, the bus may not have delivered the arrived samples yet.
   EXPECT_EQ(join.poll(20'000'000), JoinResult::waiting);
   EXPECT_EQ(join.due_ns(), 22'000'000);
   EXPECT_EQ(join.poll(40'000'000), JoinResult::incomplete);  // a second pause does not extend the wait again

@@ -136,7 +136,7 @@ TEST(ATurn, EndsTheWaitWhenItIsWoken) {
   turn.end();
 }
 
-TEST(ATurn, GivesTheExceptionOfTheComponentToTheMainThreadAndRunsTheComponentNoMore) {
+TEST(ATurn, PassesTheExceptionOfTheComponentToTheMainThreadAndEndsTheComponent) {
   int polls = 0;
   Steps component{[&]() -> bool {
     if (++polls == 2) throw std::runtime_error{"a board without an answer"};

@@ -105,8 +105,9 @@ TEST_F(Binding, IsNotDisputedByADeadWriterThatDdsStillMatches) {
   EXPECT_TRUE(binding_.disputed(ms(810)));
 }
 
-/// The thread that delivers the first sample of a writer can be ahead of the thread that counts the writer.
-/// If the binding counted writers, the topic would be disputed until the lease of the killed process ends.
+/// The DDS thread that delivers the first sample of a writer can be ahead of the thread that reports the
+/// match of the writer. If the binding counted matches, the topic would be disputed until the lease of the
+/// killed process ends.
 TEST_F(Binding, PassesToAWriterWhoseMatchIsSeenOnlyAfterItsFirstSample) {
   supervisor_speaks_until(100);
   ASSERT_EQ(binding_.judge(writer(2, 8), ms(700), matched({1})), Verdict::taken_over);
@@ -117,7 +118,7 @@ TEST_F(Binding, PassesToAWriterWhoseMatchIsSeenOnlyAfterItsFirstSample) {
   }
 }
 
-TEST_F(Binding, RefusesASampleThatNoProcessOfTheStackHasSentInTheNameOfItsWriter) {
+TEST_F(Binding, RefusesAForgedSampleOfItsWriter) {
   supervisor_speaks_until(100);
   binding_.refuse_forged(writer(1), ms(105));
   EXPECT_TRUE(binding_.disputed(ms(105)));

@@ -15,7 +15,7 @@ namespace {
 std::atomic<std::size_t> allocations{0};
 }
 
-// Not inlined; otherwise the compiler would pair malloc with the delete of the library.
+// Not inlined, so that the compiler does not pair malloc with the delete of the library.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
   if (void* memory = std::malloc(size)) return memory;

@@ -1,4 +1,4 @@
-// Sample times of crane/state that contradict their ticks. Each timeline counts in ticks of 10 ms.
+// The supervisor detects sample times of crane/state that contradict their ticks. A tick is 10 ms.
 #include "process/bridge_clock.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ TEST_F(TimesOfTheBridge, ThatStandStillOrJumpContradict) {
   EXPECT_EQ(clock_.take(stamped(12)), fits);
 }
 
-/// Each step from one sample to the next deviates by less than a period; the sum of the steps does not.
+/// Each step between samples deviates from a period by less than a period; the sum of the steps deviates by
+/// more.
 TEST_F(TimesOfTheBridge, ThatRunTooFastOrTooSlowlyContradict) {
   for (const std::int64_t step_ns : {kTick_ns / 2, kTick_ns * 19 / 10, kTick_ns + kTick_ns / 100}) {
     BridgeClock clock{kTick_ns};
@@ -72,7 +73,7 @@ TEST_F(TimesOfTheBridge, ThatContradictDoNotChangeTheClock) {
   EXPECT_EQ(clock_.local_ns(stamped(12).sample_time_ns, 500 + 2 * kTick_ns), 500 + 2 * kTick_ns);
 }
 
-TEST(FirstTimeOfABridge, ThatIsWrongEndsAfterAHundredSamplesThatAgree) {
+TEST(FirstTimeOfABridge, IsReplacedWhenAHundredLaterTimesAgreeWithEachOther) {
   BridgeClock clock{kTick_ns};
   EXPECT_EQ(clock.take(with_time(1, kLatest_ns)), fits);
   std::uint64_t tick = 2;
@@ -81,7 +82,7 @@ TEST(FirstTimeOfABridge, ThatIsWrongEndsAfterAHundredSamplesThatAgree) {
   EXPECT_EQ(clock.take(stamped(tick++)), fits);
 }
 
-TEST(FirstTimeOfABridge, ThatIsWrongDoesNotEndBySamplesThatDisagree) {
+TEST(FirstTimeOfABridge, IsKeptWhileLaterTimesDisagreeWithEachOther) {
   BridgeClock clock{kTick_ns};
   EXPECT_EQ(clock.take(with_time(1, kLatest_ns)), fits);
   for (std::uint64_t tick = 2; tick < 1000; ++tick)

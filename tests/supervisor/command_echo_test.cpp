@@ -1,4 +1,4 @@
-// The supervisor detects that the bridge executes commands of another program.
+// The supervisor detects a bridge that executes commands of another program.
 #include "process/command_echo.hpp"
 
 #include <gtest/gtest.h>

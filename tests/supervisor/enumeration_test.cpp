@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kNow_s = 100;
 
-// Every state with the parts of its memory that influence decisions; armed states also while an axis is
-// homed.
+// Every state with the parts of its memory that influence decisions. Armed states also occur while an axis is
+// being homed.
 std::vector<Memory> every_memory() {
   std::vector<Memory> all;
   for (std::size_t i = 0; i < kStates; ++i) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Steps the gate and stores its output as what reached the drives.
+// Steps the gate and stores its output as the voltage that reached the drives.
 GateOutput pass(const Limits& limits, GateMemory& memory, double trolley_v, bool arrived = true,
                 bool armed = true) {
   const GateOutput out =
@@ -128,7 +128,7 @@ TEST(Gate, BlocksTheDirectionOfALimitOnly) {
   EXPECT_EQ(gate(test_limits(), held, memory).drive_v[0], 0);
 }
 
-// Range and rate in one formula, against the gate, for one axis: median of demand and the two bounds.
+// Compares the gate with an independent formula for range and rate: the median of demand and both bounds.
 TEST(Gate, AgreesWithTheMedianOfDemandAndBounds) {
   constexpr unsigned kSeed = 7;
   std::mt19937_64 random{kSeed};

@@ -1,4 +1,4 @@
-// Axes without known position: refused requests, the course of homing, and all failures.
+// Axes without known position: refused requests, phases of homing, and all failures of homing.
 #include <gtest/gtest.h>
 
 #include <functional>

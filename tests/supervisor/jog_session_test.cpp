@@ -1,5 +1,5 @@
-/// Which samples of a stick act: every rule of docs/jog.md as a timeline. The period is 10 ms, tick k is at
-/// k / 100 s.
+/// Conditions under which samples of a stick act: every rule of docs/jog.md as a timeline. Tick k is at
+/// k * 10 ms.
 #include "process/jog_session.hpp"
 
 #include <gtest/gtest.h>

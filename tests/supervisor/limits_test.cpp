@@ -99,7 +99,7 @@ TEST(Envelope, LooksAheadInTheDirectionOfMotionOnly) {
   EXPECT_FALSE(check_envelope(test_limits(), in).stopping);
 }
 
-// Independent derivation: simulates the stop of the envelope in fine steps.
+// Independent derivation: simulates the stop that the envelope triggers in fine steps.
 TEST(Envelope, AnAxisCaughtByItStopsInsideTheHardLimits) {  // S9
   const Limits limits = test_limits();
   for (double speed = 0.05; speed <= 1; speed += 0.05) {

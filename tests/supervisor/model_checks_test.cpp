@@ -30,7 +30,7 @@ TEST(AverageRunLength, IsThatOfASimulatedSum) {
   EXPECT_NEAR(ticks / kAlarms, average_run_length(kDrift, 1, kThreshold), 0.15 * ticks / kAlarms);
 }
 
-/// White disturbance with the size of the offset tolerance.
+/// Applies a white disturbance with the size of the offset tolerance.
 TEST(AverageRunLength, OfEachModelCheckIsAbove1e9TicksOnEachRig) {
   for (const char* name : {"virginia_tech_tower", "gantry", "emulated_servo_to_go", "drive_axis"}) {
     const Limits limits = limits_of_rig(name);
@@ -47,7 +47,7 @@ TEST(AverageRunLength, OfEachModelCheckIsAbove1e9TicksOnEachRig) {
   }
 }
 
-/// A trolley without load whose drive gives `given` volts for a command of `told` volts.
+/// A trolley without load whose drive outputs `given` volts for a command of `told` volts.
 class Trolley : public testing::Test {
  protected:
   Trolley() { limits_.machine.crane.load_mass_kg = 0; }
@@ -159,7 +159,7 @@ class Load : public testing::Test {
   }
   static double as_it_is(double angle) { return angle; }
 
-  /// Begins again with an angle that passes the low-pass filter of section 4.3.
+  /// Restarts with swing angles behind the low-pass filter of section 4.3.
   void filter_angle(double angle_rad) {
     configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
     rig.sensing.filter_swing_angle = true;

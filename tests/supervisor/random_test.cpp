@@ -1,4 +1,4 @@
-// Long random histories, judged by an observer without knowledge of the state machine.
+// Long random histories. The observer that judges them does not use the state machine.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -64,7 +64,7 @@ void act(Random& random, Timeline& t) {
   if (chance(random, 0.05)) t.speed = {between(random, -0.3, 0.3), between(random, -0.5, 0.5), 0};
 }
 
-// Checks I5 and I7 with inputs and outputs only.
+// Checks I5 and I7 from inputs and outputs.
 class Observer {
  public:
   void check(const Limits& limits, const Requests& requests, const TickOutput& out) {

@@ -1,5 +1,5 @@
-// The process of the supervisor in real time: which ticks count as missing when samples are late, or when the
-// process is scheduled late. Times in milliseconds.
+// The process of the supervisor in real time: counts of missing ticks when samples are late or the process is
+// scheduled late. Times in ms.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -88,7 +88,7 @@ TEST_F(RealTime, CountsATickWithAMissingDemandOnce) {
 TEST_F(RealTime, WaitsForTheDemandOfALateState) {
   state_comes(11);
   wake_at(114.5);
-  // 115 ms, one and a half periods after state 10: the state has arrived, its demand is due
+  // At 115 ms, one and a half periods after state 10, this state has arrived and its demand is due.
   sleep_until(118);
   EXPECT_EQ(steps(), 10);
   demand_comes(11);
@@ -132,7 +132,7 @@ TEST_F(RealTime, SilenceIsStateStaleAtTheThirdStepWithoutState) {
   EXPECT_TRUE(state_is_stale());
 }
 
-TEST_F(RealTime, ItsOwnPausesDelayAStepByAtMostHalfAPeriod) {
+TEST_F(RealTime, PausesOfTheProcessDelayAStepByAtMostHalfAPeriod) {
   for (double at_ms = 120; at_ms < 170; at_ms += 5.01) wake_at(at_ms);
   EXPECT_TRUE(state_is_stale());
 }
@@ -148,7 +148,7 @@ TEST_F(RealTime, AStateWithAWrongSampleTimeIsMissing) {
   }
 }
 
-TEST_F(RealTime, FrequentStatesDoNotDelayTheStepForEver) {
+TEST_F(RealTime, FrequentStatesDoNotDelayTheStepIndefinitely) {
   for (std::uint64_t tick = 11; tick <= 25;
        ++tick) {  // the process is never awake at the end of the wait of a tick
     state_comes(tick);

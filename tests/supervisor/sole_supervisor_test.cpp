@@ -111,7 +111,7 @@ TEST(SoleSupervisor, IsDisputedByAnotherWriterWithItsOwnStartUpNumber) {
   EXPECT_FALSE(sole.yields());
 }
 
-/// A process of the simulation below.
+/// A supervisor process in the simulation of the test below.
 struct SoleProcess {
   SoleSupervisor sole;
   std::uint32_t epoch;

@@ -14,10 +14,10 @@ class SupervisorInRealTime : public testing::Test {
  protected:
   static constexpr std::int64_t kBegin_ns = 1'000'000'000;
 
-  /// Ten complete ticks in time; the step of tick 10 is at 100.5 ms.
+  /// Runs complete ticks in time; the step of tick 10 is at 100.5 ms.
   /// @param bridge_ahead_ns  offset of the clock of the bridge's host relative to that of the supervisor
-  /// @param model_checks     of the rig file
-  /// @param ticks            complete ticks
+  /// @param model_checks     Limits::model_checks of the rig file
+  /// @param ticks            number of complete ticks
   explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0, bool model_checks = true,
                                 std::uint64_t ticks = 10)
       : bridge_ahead_ns_{bridge_ahead_ns}, rig_{tower(model_checks)} {
@@ -45,7 +45,7 @@ class SupervisorInRealTime : public testing::Test {
     reference_.header = header(tick);
     EXPECT_TRUE(references_.publish(reference_));
   }
-  /// The process is scheduled now.
+  /// Schedules the process now.
   void wake_at(double time_ms) {
     const auto now_ns = kBegin_ns + std::llround(time_ms * 1e6);
     while (supervisor_->poll(now_ns)) continue;
@@ -54,7 +54,7 @@ class SupervisorInRealTime : public testing::Test {
       ++steps_;
     }
   }
-  /// The process sleeps until its wake-up time, repeatedly until `time_ms`.
+  /// Runs until `time_ms`: the process repeatedly sleeps until its wake-up time.
   void sleep_until(double time_ms) {
     for (double next_ms = due_ms(); next_ms <= time_ms; next_ms = due_ms()) wake_at(next_ms);
   }

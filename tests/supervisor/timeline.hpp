@@ -1,5 +1,5 @@
 #pragma once
-// A simple crane that the test controls, with a supervisor, in virtual time: tests read as a timeline.
+// A supervisor with a simple crane in virtual time. The test controls the crane and reads like a timeline.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -39,11 +39,11 @@ class Timeline {
   Limits limits;
   TickInput world{.state_arrived = true, .demand_arrived = true, .self_test = SelfTest::passed};
   PerAxis speed{};          // unit/s, while the brake is open
-  bool brakes_obey = true;  // false: the brakes stay as they are
+  bool brakes_obey = true;  // false: the brakes ignore commands
   bool axes_slip = false;   // true: closed brakes do not hold
   bool relay_obeys = true;
-  double bridge_clock_ahead_s = 0;  // the bridge runs on another host
-  double late_s = 0;                // delay of this sample
+  double bridge_clock_ahead_s = 0;  // offset of the bridge's clock, when it runs on another host
+  double late_s = 0;                // delay of the sample of this tick
 
   TickMemory memory;
   TickOutput out;
@@ -103,7 +103,7 @@ class Timeline {
   void demand(double volts) { world.demand_v = {volts, volts, 0}; }
 
  private:
-  // Brakes and relay follow two ticks after the command was given: one tick of delay, 20 ms to close or open.
+  // Brakes and relay follow two ticks after the command: one tick of delay, then 20 ms to close or open.
   void obey(const TickOutput& command) {
     delayed_.push_back(command);
     if (delayed_.size() < 3) {
