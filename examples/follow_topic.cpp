@@ -1,5 +1,4 @@
-/// Follows a topic of a running stack: prints the trolley position once a second, for the given number of
-/// seconds.
+/// Follows a topic of a running stack: prints the trolley position once a second, for the given time in s.
 ///   crane up &          then          example_follow_topic 5 [--domain N --crane NAME --interface ADDRESS …]
 #include <CLI/CLI.hpp>
 #include <chrono>

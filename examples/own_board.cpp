@@ -1,4 +1,4 @@
-/// Adds a board behind the hardware bridge without a change to the project: three motors without friction and
+/// Adds a board to the hardware bridge without a change to the project: three motors without friction and
 /// load. The example runs the whole stack with this board in lockstep and moves the trolley by 10 cm.
 #include <cmath>
 #include <cstdio>
@@ -12,7 +12,8 @@ namespace {
 
 using namespace crane;
 
-/// Three motors whose acceleration is proportional to the voltage. Time passes in advance_to() only.
+/// Three motors whose acceleration is proportional to the voltage. Simulated time passes only in
+/// advance_to().
 class MotorBench final : public bridge::Board {
  public:
   explicit MotorBench(const configuration::Rig& rig) : rig_{rig} {

@@ -11,8 +11,9 @@ namespace {
 
 using namespace crane;
 
-/// Position, speed, swing, swing rate: (3.22) to (3.26) of H. M. Omar, Control of Gantry and Tower Cranes,
-/// with K = 4 at a cable of 1 m and a trolley at 1 m.
+/// Gains of position, speed, swing and swing rate, in V per m, m/s, rad and rad/s (slew: per rad, rad/s):
+/// (3.22) to (3.26) of H. M. Omar, Control of Gantry and Tower Cranes, with K = 4, for a cable of 1 m and a
+/// trolley at 1 m.
 constexpr control::StateFeedbackGains kGains{.trolley = {4, 5.28, 15.0, -0.15},
                                              .slew = {4, 5.92, -15.7, -3.24}};
 

@@ -1,5 +1,5 @@
-/// The kernel ends a process whose memory grows; a process that allocates and frees the same amount
-/// continues.
+/// A process whose memory grows ends by a failed allocation; a process that allocates and frees the same
+/// amount continues.
 #include "crane/runtime/memory_limit.hpp"
 
 #include <gtest/gtest.h>
