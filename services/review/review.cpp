@@ -115,7 +115,7 @@ class Reader {
       axis.largest_volts = std::max(axis.largest_volts, std::abs(state.applied_v[i]));
       if (armed && !std::isnan(wanted))
         axis.largest_error = std::max(axis.largest_error, std::abs(wanted - position[i]) * scale[i]);
-      // Share of the voltage limit that counts as saturation; the rest covers the rounding of a 12-bit
+      // Share of the voltage limit above which a voltage counts as saturated; covers rounding by a 12-bit
       // converter.
       constexpr double kAtLimit = 0.999;
       if (status_.volt_limit_v[i] > 0 && std::abs(state.applied_v[i]) >= kAtLimit * status_.volt_limit_v[i])

@@ -31,9 +31,9 @@ struct Curves {
 };
 
 struct AxisFigures {
-  double largest_speed = 0;  ///< m/s or rad/s
+  double largest_speed = 0;  ///< m/s or deg/s
   double largest_volts = 0;
-  double largest_error = 0;  ///< largest |reference - position| while armed, m or rad
+  double largest_error = 0;  ///< largest |reference - position| while armed, m or deg
   double saturated_s = 0;    ///< time with |V| at the limit of the drive
 };
 
