@@ -226,7 +226,8 @@ class Experiment {
     return id::estimate_stiction(run, break_away);
   }
 
-  /// Length of the step, m or rad: uses at most half the voltage of the drive and half the swing limit.
+  /// Length of the step, m or rad: at most half the voltage of the drive, 0.4 of the travel, and half of
+  /// limits_.swing_rad as ratio of the step of the support to the cable length.
   [[nodiscard]] double step_size() const {
     constexpr double kVoltShare = 0.5, kTravelShare = 0.4;
     double step = std::min(kVoltShare * rig_.drives[options_.axis].volt_limit_v / loop_.stiffness_vpu,
