@@ -41,6 +41,12 @@ Number number_of(const std::string& text, const char* name) {
 
 constexpr const char* kJsonType = "application/json";
 
+/// True when the content type is `wanted`, with or without parameters ("application/json; charset=utf-8").
+bool has_type(const ApiRequest& request, std::string_view wanted) {
+  const std::string_view type = request.content_type;
+  return type.substr(0, type.find_first_of("; \t")) == wanted;
+}
+
 /// @throws BadRequest when the body is no request
 bool stops(const ApiRequest& request) {
   return request.target == "/api/request" && is_stop(operator_request_of(request.body).kind);
@@ -85,7 +91,7 @@ void Api::handle(const ApiRequest& request, Answer answer) {
 
 bool Api::is_permitted_stop(const ApiRequest& request) const {
   try {
-    return request.method == "POST" && request.content_type.starts_with(kJsonType) && stops(request) &&
+    return request.method == "POST" && has_type(request, kJsonType) && stops(request) &&
            why_not_stop(rules_, request.visitor).empty();
   } catch (const BadRequest&) {
     return false;
@@ -150,7 +156,7 @@ ApiAnswer Api::history(std::string_view query) const {
 void Api::post(const ApiRequest& request, Answer answer) {
   // A form of a foreign page can send text/plain, but cannot send these types without a preflight request.
   const std::string wanted = request.target.starts_with(kUploadPath) ? "application/octet-stream" : kJsonType;
-  if (!request.content_type.starts_with(wanted))
+  if (!has_type(request, wanted))
     return answer(problem_answer(415, "content type " + wanted + " is expected"));
   const auto why_not =
       stops(request) ? why_not_stop(rules_, request.visitor) : why_not_operate(rules_, request.visitor);

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <cerrno>
 
 #include "crane/configuration/rig.hpp"
 #include "dashboard/access.hpp"
@@ -25,18 +25,38 @@ void make(const std::filesystem::path& file) {
   if (!written) refuse(file, "the file cannot be written");
 }
 
+/// The opened token file. A link may name the file of another program, and a pipe may never end: both are
+/// refused.
+struct Descriptor {
+  explicit Descriptor(const std::filesystem::path& file)
+      : number{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)} {
+    if (number < 0) refuse(file, errno == ELOOP ? "the file is a link" : "the file cannot be read");
+  }
+  ~Descriptor() { ::close(number); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number;
+};
+
 }  // namespace
 
 std::string read_or_make_token(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) make(file);
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file))) make(file);
+  const Descriptor opened{file};
   struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) refuse(file, "the file cannot be read");
+  if (::fstat(opened.number, &status) != 0 || !S_ISREG(status.st_mode)) refuse(file, "is not a regular file");
+  if (status.st_uid != ::geteuid()) refuse(file, "the file belongs to another user");
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     refuse(file, "other users can read or change the file: run chmod 600, and write a new token to it");
-  std::string token;
-  std::getline(std::ifstream{file}, token);
+  std::string text(kLongestToken + 1, '\0');
+  const auto size = ::read(opened.number, text.data(), text.size());
+  if (size < 0) refuse(file, "the file cannot be read");
+  text.resize(static_cast<std::size_t>(size));
+  const std::string token = text.substr(0, text.find('\n'));
   if (token.size() < kShortestToken)
     refuse(file, "the token must have at least 16 characters: remove the file, and the next start makes one");
+  if (token.size() > kLongestToken) refuse(file, "the token must have at most 1024 characters");
   return token;
 }
 

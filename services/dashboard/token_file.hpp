@@ -6,11 +6,11 @@
 
 namespace crane::dashboard {
 
-inline constexpr std::size_t kShortestToken = 16;
+inline constexpr std::size_t kShortestToken = 16, kLongestToken = 1024;  // characters
 
 /// Reads the token; creates the file with a random token when it does not exist.
-/// @throws configuration::ConfigurationError when other users can read or change the file, or the token is
-/// too short
+/// @throws configuration::ConfigurationError when the file is a link or no regular file, when it belongs to
+/// another user, when other users can read or change it, or when the token is too short or too long
 [[nodiscard]] std::string read_or_make_token(const std::filesystem::path& file);
 
 }  // namespace crane::dashboard

@@ -79,8 +79,8 @@ TEST(Access, AddressesLocalhostAndNamedHostsAreThisComputer) {
     visitor.host = host;
     EXPECT_TRUE(host_allowed(kRules, visitor)) << host;
   }
-  for (const auto* host :
-       {"", ":", "[", "[::1", "localhost.evil.example", "127.0.0.1.evil.example:8765", "crane.lab.evil:1"}) {
+  for (const auto* host : {"", ":", "[", "[::1", "[::1]evil", "[::1]evil:8765", "localhost.evil.example",
+                           "127.0.0.1.evil.example:8765", "crane.lab.evil:1"}) {
     auto visitor = kAtTheRig;
     visitor.host = host;
     EXPECT_FALSE(host_allowed(kRules, visitor)) << host;

@@ -40,5 +40,22 @@ TEST_F(TokenFile, WithAShortTokenIsRefused) {
   EXPECT_THROW((void)read_or_make_token(file_), configuration::ConfigurationError);
 }
 
+TEST_F(TokenFile, WithALongTokenIsRefused) {
+  std::ofstream{file_} << std::string(5'000'000, 'a');
+  ::chmod(file_.c_str(), 0600);
+  EXPECT_THROW((void)read_or_make_token(file_), configuration::ConfigurationError);
+}
+
+TEST_F(TokenFile, ThatIsALinkOrAPipeIsRefused) {
+  const auto target = file_.string() + "_target";
+  (void)read_or_make_token(target);
+  std::filesystem::create_symlink(target, file_);
+  EXPECT_THROW((void)read_or_make_token(file_), configuration::ConfigurationError);
+  std::filesystem::remove(file_);
+  std::filesystem::remove(target);
+  ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_THROW((void)read_or_make_token(file_), configuration::ConfigurationError);
+}
+
 }  // namespace
 }  // namespace crane::dashboard

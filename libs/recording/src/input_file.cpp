@@ -20,7 +20,8 @@ namespace {
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& file) : name_{file.string()} {
-  descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
+  // O_NONBLOCK: the opening of a pipe would wait for a writer. It has no effect on a regular file.
+  descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) fail(name_, "cannot open", errno);
   struct stat status {};
   const bool known = ::fstat(descriptor_, &status) == 0;
