@@ -5,19 +5,17 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "crane/protection.hpp"
 #include "crane/runtime/convert.hpp"
 #include "crane/runtime/joined_component.hpp"
-#include "crane/runtime/request_inbox.hpp"
 #include "crane/supervisor/supervisor.hpp"
 #include "process/announcements.hpp"
 #include "process/board_self_test.hpp"
 #include "process/bridge_clock.hpp"
 #include "process/command_echo.hpp"
 #include "process/jog_reader.hpp"
-#include "process/request_rules.hpp"
+#include "process/operator_requests.hpp"
 #include "process/samples.hpp"
 #include "process/sole_reader.hpp"
 #include "process/step_timing.hpp"
@@ -29,7 +27,6 @@ using runtime::Context;
 
 // Longest wait for the demand / period: the command must reach the bridge in the same period.
 constexpr double kWaitShare = 0.6;
-constexpr int kTicksToTakeUp = 20;  // longest time from the acceptance of a move to its first reference
 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
  public:
@@ -39,13 +36,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         realtime_{context.clock == runtime::Clock::realtime},
         timing_{limits_.period_s, context.clock},
         echo_{{limits_.axis[0].present, limits_.axis[1].present, limits_.axis[2].present}},
-        requests_{context,
-                  {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
-                   crane_REQUEST_FOLLOW, crane_REQUEST_JOG, crane_REQUEST_STOP, crane_REQUEST_ESTOP,
-                   crane_REQUEST_HOME, crane_REQUEST_MODE}},
+        requests_{context, limits_},
         jogs_{context},
         sole_{context},
-        accepted_{context.ports.output(topics::accepted_request)},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -87,7 +80,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_v = runtime::values(demand->total_v);
     }
     jogs_.take(last_header_, input.now_s);
-    input.reference_moving = is_moving(reference) || jogs_.session().active(input.now_s);
+    input.reference_moving = requests_.is_moving(reference) || jogs_.session().active(input.now_s);
     input.second_writer =
         (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
     if (input.bridge_restarted) {
@@ -113,7 +106,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     TickInput input;
     input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
-    input.reference_moving = is_moving(nullptr) || jogs_.session().active(input.now_s);
+    input.reference_moving = requests_.is_moving(nullptr) || jogs_.session().active(input.now_s);
     input.self_test = self_test_.step(nullptr);
     step(input);
     return true;
@@ -124,21 +117,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
-  struct DueRequest {
-    msg::Request request;
-    bus::ParticipantId sender;
-  };
-
-  /// True from the acceptance of a move until its reference has ended. A planner that does not execute the
-  /// move, or a missing reference, must not end RUN.
-  bool is_moving(const msg::Reference* reference) {
-    if (reference != nullptr) {
-      reference_moving_ = reference->moving;
-      if (reference->move_number == move_.number) ticks_to_take_up_ = 0;
-    }
-    if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
-    return reference_moving_ || ticks_to_take_up_ > 0;
-  }
   /// True in the first tick of another bridge.
   bool has_restarted() {
     if (restarts() == bridge_restarts_) return false;
@@ -182,100 +160,30 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void step(TickInput& input) {
     input.second_writer = input.second_writer || ports().disputed(now_ns_) || sole_.disputed(now_ns_);
     input.configuration_differs = configuration() == 0;
-    auto due = collect(input);
-    refuse_beside_stops(due, input);
-    input.speed_share = rule_of(mode_).speed_share;
+    requests_.collect(input, memory_, now_ns_);
     const auto output = supervisor::step(limits_, input, memory_);
-    for (const auto& one : due) answer(one, output, input.now_s);
+    requests_.take_answers(output, jogs_, input.now_s);
     jogs_.end_with(output.state, input.now_s);
     const auto command = command_of(last_header_, output);
     commands_.publish(command);
     echo_.commanded(command);
-    statuses_.publish(status_of(last_header_, output, limits_, move_,
-                                limited_stick(mode_, jogs_.session().deflection(input.now_s)), mode_));
+    const Mode mode = requests_.mode();
+    statuses_.publish(status_of(last_header_, output, limits_, requests_.move(),
+                                limited_stick(mode, jogs_.session().deflection(input.now_s)), mode));
+    requests_.reply(last_header_);
     sole_.stepped(output.state);
     const bool stopped = input.bridge_restarted || (output.state != announced_ && is_stopped(output.state));
-    if (stopped || std::ranges::any_of(due, is_stop)) requests_.stopped(now_ns_);
+    if (stopped || requests_.stop_requested()) requests_.stopped(now_ns_);
     if (realtime_ && !limits_.machine.known && output.state == State::arming && announced_ != State::arming)
       announce_unchecked(node());
     if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);
     announced_ = output.state;
   }
 
-  static bool is_stop(const DueRequest& due) { return runtime::RequestInbox::stops(due.request); }
   /// True for the states during and after a stop.
   static bool is_stopped(State state) {
     return state == State::locked || state == State::estop || state == State::fault ||
            state == State::stop_c0 || state == State::stop_c1;
-  }
-
-  /// A request that arrives in the same tick as a stop was sent without knowledge of the stop.
-  void refuse_beside_stops(std::vector<DueRequest>& due, TickInput& input) {
-    if (std::ranges::none_of(due, is_stop)) return;
-    std::erase_if(due, [&](const DueRequest& one) {
-      if (is_stop(one)) return false;
-      input.requests[static_cast<std::size_t>(*request_of(one.request.kind))] = false;
-      reply(one.request, false,
-            "a stop was requested in the same tick: look at the crane and repeat the request");
-      return true;
-    });
-  }
-
-  /// Requests that are due at this tick. Requests with invalid content are refused here.
-  std::vector<DueRequest> collect(TickInput& input) {
-    std::vector<DueRequest> due;
-    bus::ParticipantId sender{};
-    // The planner starts its search for the path of an accepted move from the sample of the same tick.
-    const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
-    OncePerTick once;
-    while (const auto request = requests_.take_due(input.tick, now_ns_, &sender)) {
-      auto problem = once.problem_of(*request, limits_);
-      if (problem.empty()) problem = problem_in_mode(*request, mode_, position);
-      if (problem.empty()) problem = problem_at(*request, limits_, position);
-      if (problem.empty() && request->kind == crane_REQUEST_MODE) {
-        change_mode(*request);
-        continue;
-      }
-      if (!problem.empty()) {
-        reply(*request, false, problem);
-        continue;
-      }
-      if (request->kind == crane_REQUEST_RESET) std::ranges::copy(request->selected, input.confirmed.begin());
-      if (request->kind == crane_REQUEST_HOME) input.home_axis = home_axis_of(*request);
-      input.requests[static_cast<std::size_t>(*request_of(request->kind))] = true;
-      due.push_back({*request, sender});
-    }
-    return due;
-  }
-
-  void change_mode(const msg::Request& request) {
-    const auto problem = mode_problem(request, memory_.machine.state);
-    if (problem.empty() && mode_ != static_cast<Mode>(request.mode)) {
-      mode_ = static_cast<Mode>(request.mode);
-      node().info("operating_mode", std::string{"mode "} + name_of(mode_) + ": " + rule_of(mode_).purpose);
-    }
-    reply(request, problem.empty(), problem);
-  }
-
-  void answer(const DueRequest& due, const TickOutput& output, double now_s) {
-    const auto& request = due.request;
-    const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
-    if (moves_axes(request) && verdict.accepted) {
-      move_ = accepted_move(request, move_.number + 1);
-      ticks_to_take_up_ = kTicksToTakeUp;
-      jogs_.accepted(request, due.sender, now_s);
-    }
-    reply(request, verdict.accepted, verdict.reason);
-  }
-
-  void reply(const msg::Request& request, bool accepted, std::string_view reason) {
-    if (accepted) {
-      msg::AcceptedRequest sample{};
-      sample.header = last_header_;
-      sample.request = request;
-      accepted_.publish(sample);
-    }
-    requests_.reply(request, last_header_, accepted, reason);
   }
 
   Limits limits_;
@@ -283,10 +191,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   StepTiming timing_;
   CommandEcho echo_;
   BridgeClock bridge_clock_{period_ns()};
-  runtime::RequestInbox requests_;
+  OperatorRequests requests_;
   JogReader jogs_;
   SoleReader sole_;
-  runtime::Output<msg::AcceptedRequest> accepted_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   BoardSelfTest self_test_;
@@ -295,11 +202,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::int64_t now_ns_ = 0;
   std::uint64_t bridge_restarts_ = 0;
   bool wrong_time_announced_ = false;
-  msg::AcceptedMove move_{};  ///< last accepted move; number 0: none
-  int ticks_to_take_up_ = 0;
-  bool reference_moving_ = false;
   State announced_ = State::boot;
-  Mode mode_ = Mode::semi_automatic;
 };
 
 }  // namespace
