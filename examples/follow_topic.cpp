@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   // A program that only reads needs no start-up number.
-  crane::bus::Bus bus{crane::runtime::bus_options(options, "follow_topic", crane_SOURCE_OPERATOR, 0)};
+  crane::bus::Bus bus{crane::runtime::bus_options(options, "follow_topic", crane_SOURCE_MONITOR, 0)};
   auto states = bus.subscriber(crane::topics::state);
 
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{seconds};

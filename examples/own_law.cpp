@@ -1,6 +1,7 @@
 /// Adds a control law without a change to the project: state feedback with eight gains. The example runs the
 /// law in lockstep on the simulated tower crane and compares it with the controller of the rig file.
 #include <cstdio>
+#include <numbers>
 
 #include "crane/control/state_feedback.hpp"
 #include "crane/control/tracking_pd.hpp"
@@ -35,9 +36,10 @@ void report(const control::Controller& controller) {
   const auto outcome = experiments::run_in_process(started, controller, scenario, log);
   const auto metrics = experiment::evaluate(experiment::samples_from(log.table(outcome.hold_tick)),
                                             experiment::maneuver_of(scenario, started));
+  constexpr double kDegPerRad = 180 / std::numbers::pi;
   const double settled_s = metrics.settling_time_s.value_or(-1);
   std::printf("%-24s settled after %.2f s, largest swing %.1f deg\n", std::string{controller.name}.c_str(),
-              settled_s, metrics.largest_swing_radial_rad * 57.2957795);
+              settled_s, metrics.largest_swing_radial_rad * kDegPerRad);
 }
 
 }  // namespace
