@@ -113,9 +113,16 @@ PreparedRun prepare(Run run, const configuration::Rig& rig, const Accuracy& accu
   for (const bool inner : {false, true})
     prepared.mid_step[inner ? 1 : 0] =
         mid_step_kinematics(prepared.motion, prepared.cable, steps_in(run.period_s, inner), run.period_s);
+  prepared.rig_cable_m = rig.start.position[plant::kHoist];
   prepared.kind = rig.kind;
   prepared.run = std::move(run);
   return prepared;
+}
+
+double least_noise_of(const Runs& runs, Output output) {
+  double most = 0;
+  for (const PreparedRun& run : runs) most = std::max(most, run.least_noise[output]);
+  return most;
 }
 
 }  // namespace crane::diagnosis

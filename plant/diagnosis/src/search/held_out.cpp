@@ -145,7 +145,7 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
       std::vector<double> then = before.mean_squares(o), now = after.mean_squares(o);
       result.baseline_rms[name] = std::sqrt(mean(then));
       result.extended_rms[name] = std::sqrt(mean(now));
-      result.noise[name] = std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
+      result.noise[name] = std::max(least_noise_of(learned->runs(), problem->outputs()[o]),
                                     std::sqrt(mean(trained.mean_squares(o))));
       if (acts_on(effects, problem->outputs()[o])) {
         compared.before.push_back(std::move(then));

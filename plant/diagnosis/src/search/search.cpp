@@ -50,6 +50,7 @@ class Search {
     // too small a value. Effects are therefore also fitted beside the unchanged values of the rig file.
     if (!study_.uncalibrated().inaccuracies.empty()) extend(base_in(study_.uncalibrated()), kFirst);
     extend(found_.base, kFirst);
+    record_detection(scores_of(found_.base));
     Hypotheses& found = found_;
     std::vector<Fitted> level = refit_likeliest();
     if (level.empty()) return finished();
@@ -178,11 +179,6 @@ class Search {
     ScoreTable scores = scores_of(there);
     const std::vector<const Candidate*> ringing = initial_values_.add_of_lines(there, request_.seed, scores);
     always.insert(always.end(), ringing.begin(), ringing.end());
-    if (there.effects.empty()) {
-      found_.detection_p_value = scores.p_value;
-      found_.excitation = scores.excitation;
-      for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
-    }
     if (!there.effects.empty() && scores.p_value > rules::kSignificant) {
       if (ringing.empty()) return scores.p_value;
       count = 0;
@@ -202,6 +198,14 @@ class Search {
       tried_.push_back(study_.first_fit(initial_values_.with_new_wave(start, there), there));
     }
     return ringing.empty() ? scores.p_value : rules::kSignificant.value;
+  }
+
+  /// Keeps the scores of the calibrated base model in its own noise. In the noise of a hypothesis, the scores
+  /// would also test what this hypothesis describes.
+  void record_detection(const ScoreTable& scores) {
+    found_.detection_p_value = scores.p_value;
+    found_.excitation = scores.excitation;
+    for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
   }
 
   /// Scores beside a hypothesis. @pre the study is whitened with its nuisance parameters
@@ -287,9 +291,10 @@ class Search {
 
   void rank(const Fitted& f) {
     Ranked& ranked = found_.ranking.emplace_back(ranked_against(found_.base, f));
-    if (f.effects.size() == 1)
-      ranked.p_value =
-          p_value_[static_cast<std::size_t>(f.effects[0].candidate - study_.candidates().data())];
+    if (f.effects.size() != 1) return;
+    const auto known =
+        p_value_.find(static_cast<std::size_t>(f.effects[0].candidate - study_.candidates().data()));
+    ranked.p_value = known == p_value_.end() ? 1 : known->second;
   }
 
   Study& study_;

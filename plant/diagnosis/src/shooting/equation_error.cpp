@@ -60,11 +60,27 @@ std::vector<double> EquationError::log_variances() const {
   return all;
 }
 
-std::vector<Eigen::VectorXd> EquationError::residuals(const Replays& crane) const {
+std::vector<Eigen::VectorXd> EquationError::plain_residuals(const Replays& crane) const {
   std::vector<Eigen::VectorXd> all;
   for (const Pieces& axis : axes_)
-    for (Eigen::VectorXd& residual : residuals_of(axis, crane)) all.push_back(std::move(residual));
+    for (Eigen::VectorXd& residual : plain_residuals_of(axis, crane)) all.push_back(std::move(residual));
   return all;
+}
+
+std::vector<Eigen::VectorXd> EquationError::whitened(const std::vector<Eigen::VectorXd>& plain) const {
+  std::vector<Eigen::VectorXd> all;
+  auto next = plain.begin();
+  for (const Pieces& axis : axes_) {
+    const auto end = next + static_cast<std::ptrdiff_t>(axis.all.size());
+    for (Eigen::VectorXd& residual : diagnosis::whitened(axis, {next, end}))
+      all.push_back(std::move(residual));
+    next = end;
+  }
+  return all;
+}
+
+std::vector<Eigen::VectorXd> EquationError::residuals(const Replays& crane) const {
+  return whitened(plain_residuals(crane));
 }
 
 std::vector<Eigen::VectorXd> EquationError::change(const Replays& crane,

@@ -24,6 +24,10 @@ class EquationError {
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane,
                                                     const std::vector<Eigen::VectorXd>& at,
                                                     double step) const;
+  /// Residual of each piece, not whitened.
+  [[nodiscard]] std::vector<Eigen::VectorXd> plain_residuals(const Replays& crane) const;
+  /// Whitens plain residuals or slopes by piece; projects the start out.
+  [[nodiscard]] std::vector<Eigen::VectorXd> whitened(const std::vector<Eigen::VectorXd>& plain) const;
   /// Sum of ln f of each piece.
   [[nodiscard]] std::vector<double> log_variances() const;
   /// Window of the drive simulation that each piece belongs to.

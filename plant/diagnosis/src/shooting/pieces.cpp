@@ -167,7 +167,7 @@ Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Dist
   }
   Pieces pieces{&runs, axis, known, {}};
   if (stretches.empty()) return pieces;
-  if (!(known.noise > 0)) pieces.disturbance = learn(left, motions, runs[0].least_noise[axis]);
+  if (!(known.noise > 0)) pieces.disturbance = learn(left, motions, least_noise_of(runs, axis));
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     auto& [run, first, rows, position] = stretches[i];
     Piece piece{
@@ -180,7 +180,7 @@ Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Dist
   return pieces;
 }
 
-std::vector<VectorXd> residuals_of(const Pieces& pieces, const Replays& crane) {
+std::vector<VectorXd> plain_residuals_of(const Pieces& pieces, const Replays& crane) {
   const Runs& runs = *pieces.runs;
   std::vector<VectorXd> residuals(pieces.all.size());
   parallel_for(runs.size(), [&](std::size_t r) {
@@ -190,10 +190,18 @@ std::vector<VectorXd> residuals_of(const Pieces& pieces, const Replays& crane) {
       const Piece& piece = pieces.all[i];
       if (piece.run != r) continue;
       residuals[i] = piece_residual(runs[r], drive, pieces.output, piece.first, piece.rows);
-      marginalise_start(piece, residuals[i]);
     }
   });
   return residuals;
+}
+
+std::vector<VectorXd> whitened(const Pieces& pieces, std::vector<VectorXd> residuals) {
+  for (std::size_t i = 0; i < residuals.size(); ++i) marginalise_start(pieces.all[i], residuals[i]);
+  return residuals;
+}
+
+std::vector<VectorXd> residuals_of(const Pieces& pieces, const Replays& crane) {
+  return whitened(pieces, plain_residuals_of(pieces, crane));
 }
 
 Pieces pieces_of(const Problem& problem, const Fits& fits, std::size_t output) {

@@ -37,7 +37,12 @@ struct Pieces {
 /// @param known disturbance; noise 0: learnt from the pieces
 [[nodiscard]] Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis,
                                const Disturbance& known = {});
-/// Residuals of another crane on the pieces of a drive: whitened alike, start projected out.
+/// Residuals of another crane on the pieces of a drive, not whitened, m or rad.
+[[nodiscard]] std::vector<Eigen::VectorXd> plain_residuals_of(const Pieces& pieces, const Replays& crane);
+/// Residuals or slopes by piece of a drive, whitened like the pieces, start projected out.
+[[nodiscard]] std::vector<Eigen::VectorXd> whitened(const Pieces& pieces,
+                                                    std::vector<Eigen::VectorXd> residuals);
+/// Whitened residuals of another crane on the pieces of a drive.
 [[nodiscard]] std::vector<Eigen::VectorXd> residuals_of(const Pieces& pieces, const Replays& crane);
 /// Pieces of a swing. @param problem of the load; its runs outlive the pieces
 /// @param output index into its outputs

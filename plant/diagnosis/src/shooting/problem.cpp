@@ -23,13 +23,17 @@ constexpr double kLead_s = 0.3;
 /// Number of alternations of start estimation and noise model.
 constexpr int kLearningRounds = 3;
 
-/// Natural frequency at a large swing over that at a small one: the stiffness g / l falls with cos(swing).
-double frequency_ratio(const std::vector<double>& swing_rad, const Window& window) {
+/// Natural frequency in a window over that of a small swing at the cable length of the rig file. The
+/// stiffness g cos(swing) / l falls with the swing and with the length of the cable in the run.
+double frequency_ratio(const PreparedRun& run, const std::vector<double>& swing_rad, const Window& window) {
   constexpr double kLeast = 0.1;
-  double mean = 0;
-  for (std::size_t k = window.first; k < window.first + window.rows; ++k)
-    mean += std::cos(swing_rad[k]) / static_cast<double>(window.rows);
-  return std::sqrt(std::max(kLeast, mean));
+  double mean_cosine = 0, mean_cable_m = 0;
+  for (std::size_t k = window.first; k < window.first + window.rows; ++k) {
+    mean_cosine += std::cos(swing_rad[k]) / static_cast<double>(window.rows);
+    mean_cable_m += run.run.cable_m[k] / static_cast<double>(window.rows);
+  }
+  const bool known = run.rig_cable_m > 0 && mean_cable_m > 0;
+  return std::sqrt(std::max(kLeast, mean_cosine) * (known ? run.rig_cable_m / mean_cable_m : 1));
 }
 
 }  // namespace
@@ -45,7 +49,7 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
     for (const Window& window : windows_) {
       const PreparedRun& run = runs[window.run];
       const std::vector<double>& position = run.on_grid[output];
-      const double radps = part == Part::drive ? 0 : natural_radps * frequency_ratio(position, window);
+      const double radps = part == Part::drive ? 0 : natural_radps * frequency_ratio(run, position, window);
       MotionProfile profile = part == Part::drive ? motion_profile_of(run, output, window.first, window.rows)
                                                   : MotionProfile(window.rows);
       for (std::size_t k = 0; part == Part::load && k < window.rows; ++k)
@@ -88,7 +92,7 @@ void Problem::learn_disturbance(const Replays& crane) {
     const std::vector<std::vector<VectorXd>> plain = residuals(fit(crane));
     std::vector<Disturbance> learned;
     for (std::size_t output = 0; output < outputs_.size(); ++output)
-      learned.push_back(learn(plain[output], motions_[output], runs_[0].least_noise[outputs_[output]],
+      learned.push_back(learn(plain[output], motions_[output], least_noise_of(runs_, outputs_[output]),
                               disturbances_.empty() ? Disturbance{} : disturbances_[output]));
     whiten_with(std::move(learned));
   }
@@ -99,7 +103,7 @@ std::vector<Disturbance> Problem::disturbances_of(const Fits& fits,
   const std::vector<std::vector<VectorXd>> plain = residuals(fits);
   std::vector<Disturbance> learned;
   for (std::size_t output = 0; output < outputs_.size(); ++output)
-    learned.push_back(learn(plain[output], motions_[output], runs_[0].least_noise[outputs_[output]],
+    learned.push_back(learn(plain[output], motions_[output], least_noise_of(runs_, outputs_[output]),
                             near.empty() ? Disturbance{} : near[output]));
   return learned;
 }
@@ -126,10 +130,7 @@ std::vector<double> Problem::squares_changed(const Replays& crane, const Fits& a
   parallel_for(windows_.size(), [&](std::size_t w) {
     const Window& window = windows_[w];
     const Replay& replay = crane[window.run];
-    VectorXd start = measured_start(replay, window);
-    const auto known = std::min(at[w].start.size(), start.size());
-    start.head(known) = transferred_start(at[w], start).head(known);
-    const VectorXd change = simulate(replay, window, start) - at[w].simulated;
+    const VectorXd change = simulate(replay, window, start_near(replay, w, at[w])) - at[w].simulated;
     const auto rows = static_cast<Index>(window.rows);
     for (std::size_t i = 0; i < outputs_.size(); ++i)
       of_windows[w].push_back(change.segment(static_cast<Index>(i) * rows, rows).squaredNorm());
@@ -195,6 +196,31 @@ void Problem::whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
   }
 }
 
+VectorXd Problem::start_near(const Replay& replay, std::size_t w, const WindowFit& at) const {
+  VectorXd start = measured_start(replay, windows_[w]);
+  const auto known = std::min(at.start.size(), start.size());
+  start.head(known) = transferred_start(at, start).head(known);
+  return start;
+}
+
+std::vector<VectorXd> Problem::plain_change(const Replays& crane, const Fits& at, double step) const {
+  std::vector<VectorXd> changes(windows_.size());
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Replay& replay = crane[windows_[w].run];
+    changes[w] = (simulate(replay, windows_[w], start_near(replay, w, at[w])) - at[w].simulated) / step;
+  });
+  return changes;
+}
+
+std::vector<VectorXd> Problem::whitened(const std::vector<VectorXd>& plain_slopes, const Fits& at) const {
+  std::vector<VectorXd> slopes = plain_slopes;
+  parallel_for(slopes.size(), [&](std::size_t w) {
+    whiten(w, slopes[w]);
+    slopes[w] -= at[w].basis * (at[w].basis.transpose() * slopes[w]).eval();
+  });
+  return slopes;
+}
+
 std::vector<VectorXd> Problem::change(const Replays& crane, const Fits& at, double step, double* own) const {
   std::vector<VectorXd> changes(windows_.size());
   std::vector<double> gains(windows_.size());
@@ -210,9 +236,8 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
   const auto outside = [&](const MatrixXd& x) -> MatrixXd {
     return x - at.basis * (at.basis.transpose() * x).eval();
   };
-  VectorXd start = measured_start(replay, windows_[w]);
+  const VectorXd start = start_near(replay, w, at);
   const auto known = at.start.size(), all = start.size();
-  start.head(known) = transferred_start(at, start.head(known));
   const VectorXd simulated = simulate(replay, windows_[w], start);
   MatrixXd change = (simulated - at.simulated) / step;
   whiten(w, change);

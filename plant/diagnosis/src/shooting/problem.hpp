@@ -77,6 +77,13 @@ class Problem {
   /// @param own receives the decrease of the loss by the start of such coordinates alone
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane, const Fits& at, double step,
                                                     double* own = nullptr) const;
+  /// Slopes that do not depend on the noise: (outputs of crane - at) / step, from the same starts.
+  /// @pre `crane` has the coordinates of `at`
+  [[nodiscard]] std::vector<Eigen::VectorXd> plain_change(const Replays& crane, const Fits& at,
+                                                          double step) const;
+  /// Whitens plain slopes, start marginal.
+  [[nodiscard]] std::vector<Eigen::VectorXd> whitened(const std::vector<Eigen::VectorXd>& plain_slopes,
+                                                      const Fits& at) const;
   /// This problem without whitening: its starts minimise the error in m or rad.
   [[nodiscard]] Problem plain() const;
   /// Measured rows of a window, outputs one after the other. Rows without a measurement are 0, in the
@@ -107,6 +114,9 @@ class Problem {
   [[nodiscard]] Eigen::MatrixXd start_slopes(const Replay& replay, std::size_t window,
                                              const Eigen::VectorXd& start, const Eigen::VectorXd& simulated,
                                              Eigen::Index first) const;
+  /// Start of another crane that corresponds to the start of `at`.
+  [[nodiscard]] Eigen::VectorXd start_near(const Replay& replay, std::size_t window,
+                                           const WindowFit& at) const;
   [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
                                           double step, double& own_gain) const;
   [[nodiscard]] Eigen::VectorXd measured_start(const Replay& replay, const Window& window) const;

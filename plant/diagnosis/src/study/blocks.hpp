@@ -1,13 +1,20 @@
 #pragma once
 /// Scores by block. Blocks are the units of resampling.
+#include <algorithm>
+
 #include "study/study.hpp"
 
 namespace crane::diagnosis {
 
-/// Slopes: changes of the whitened outputs per unit, by value of the effects and by window or piece. Empty
-/// where the effect is not visible.
+/// Slopes: changes of the outputs per unit, whitened or plain, by value of the effects and by window or
+/// piece. Empty where the effect is not visible.
 struct Study::Slopes {
   std::vector<std::vector<Eigen::VectorXd>> drive, equation_error, load;
+
+  /// Drops the slopes of all but the first values.
+  void keep_first(std::size_t values) {
+    for (auto* of : {&drive, &equation_error, &load}) of->resize(std::min(of->size(), values));
+  }
 };
 
 /// Scores of a set of directions.

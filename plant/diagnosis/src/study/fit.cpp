@@ -125,18 +125,17 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
 
-bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
-                    std::size_t apart) const {
+bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   const double enough =
       loss == Loss::robust ? kLeastGain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!along) along = slopes(best.effects, best.train);
+    along = plain_slopes(best.effects, best.train, std::move(along));
+    const Slopes here = whitened(along, best.train);
     if (round >= kLeastRounds &&
-        best.train.loss - kDecreaseMargin * predicted_decrease(block_scores(best.train, *along)) >
-            loss_to_beat)
+        best.train.loss - kDecreaseMargin * predicted_decrease(block_scores(best.train, here)) > loss_to_beat)
       return false;
-    const BlockScores both = block_scores(best.train, *along, loss);
+    const BlockScores both = block_scores(best.train, here, loss);
     const VectorXd gradient = both.gradient();
     const Flat flat = flatten(best.effects);
     double gained = 0;
@@ -166,7 +165,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
       if (gained < enough) damping = kFirstDamping;
     }
     if (gained < enough) break;  // a step this small does not change the slopes
-    along.reset();
+    along = {};
   }
   return true;
 }
@@ -252,18 +251,24 @@ Fitted Study::fit(Effects effects, double loss_to_beat) const {
 }
 
 Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near) const {
+  Slopes along;
+  return fit(std::move(effects), loss_to_beat, near, along);
+}
+
+Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near, Slopes& along) const {
   Fitted start;
   start.effects = std::move(effects);
   start.train = train(start.effects, near);
   Fitted best = start;
   if (is_rough(best.effects)) step_around(best, &Evaluation::loss, false);
+  if (!same_values(start.effects, best.effects)) along = {};
+  along.keep_first(static_cast<std::size_t>(flatten(best.effects).values.size()));
   start = best;
-  std::optional<Slopes> along;
   const bool can_beat = descend(best, Loss::squares, loss_to_beat, along, best.effects.size());
-  if (start.train.loss < best.train.loss) best = start, along.reset();
+  if (start.train.loss < best.train.loss) best = start, along = {};
   if (can_beat) descend(best, Loss::robust, loss_to_beat, along, best.effects.size());
-  if (!along) along = slopes(best.effects, best.train);
-  estimate_uncertainty(best, *along, {});
+  along = plain_slopes(best.effects, best.train, std::move(along));
+  estimate_uncertainty(best, whitened(along, best.train), {});
   best.nuisance = nuisance();
   return best;
 }

@@ -14,7 +14,7 @@ namespace crane::diagnosis {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-void Study::fit_inaccuracies(Fitted& fitted) {
+void Study::fit_inaccuracies(Fitted& fitted, Slopes& along) {
   const Effects beside =
       fitted.effects.empty() ? inaccuracies_beside({}) : visible_inaccuracies_beside(fitted.effects);
   if (beside.empty()) return;
@@ -22,7 +22,6 @@ void Study::fit_inaccuracies(Fitted& fitted) {
   joint.effects = fitted.effects;
   joint.effects.insert(joint.effects.end(), beside.begin(), beside.end());
   joint.train = fitted.train;
-  std::optional<Slopes> along;
   descend(joint, Loss::robust, std::numeric_limits<double>::infinity(), along, 0);
   const auto first = joint.effects.begin() + static_cast<std::ptrdiff_t>(fitted.effects.size());
   for (auto inaccuracy = first; inaccuracy != joint.effects.end(); ++inaccuracy)
@@ -31,8 +30,8 @@ void Study::fit_inaccuracies(Fitted& fitted) {
   fitted.effects.assign(joint.effects.begin(), first);
   fitted.train = std::move(joint.train);
   if (fitted.effects.empty()) return;
-  if (!along) along = slopes(joint.effects, fitted.train);
-  estimate_uncertainty(fitted, *along, {first, joint.effects.end()});
+  along = plain_slopes(joint.effects, fitted.train, std::move(along));
+  estimate_uncertainty(fitted, whitened(along, fitted.train), {first, joint.effects.end()});
 }
 
 void Study::estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effects& beside) const {

@@ -89,7 +89,9 @@ std::array<double, kOutputs> Study::errors_of(const Evaluation& at) const {
 std::array<double, kOutputs> Study::change_by(const Fitted& fitted, std::size_t effect) const {
   Effects others = fitted.effects;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(effect));
-  const Replays without = replays_of(train_.runs, with(others));
+  // An inaccuracy of the same cause stays out: its value was fitted before the effect.
+  const Crane crane = crane_with(calibration_beside(fitted.effects), others);
+  const Replays without = replays_of(train_.runs, crane);
   std::array<double, kOutputs> change{};
   for (const auto& [problem, fits] :
        {std::pair{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}}) {
@@ -143,13 +145,15 @@ bool Study::fitted_jointly(const Effects& effects) const {
 Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
   Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
+  // The noise changes from round to round; slopes before whitening are known until the values change.
+  Slopes along;
   for (int round = 0; round < kMostNoiseRounds; ++round) {
     whiten_training(round == 0 ? first_fit.first_nuisance : nuisance_of(last, last.nuisance, last.nuisance));
     last.train = evaluated_again(last);
     // Later rounds begin near their result: the joint fit suffices.
     if (round == 0 || !fitted_jointly(last.effects))
-      last = fit(last.effects, std::numeric_limits<double>::infinity(), last.train);
-    fit_inaccuracies(last);
+      last = fit(last.effects, std::numeric_limits<double>::infinity(), last.train, along);
+    fit_inaccuracies(last, along);
     judge_by_likelihood(last);
     last.misfit = first_fit.misfit;
     last.first_nuisance = first_fit.first_nuisance;

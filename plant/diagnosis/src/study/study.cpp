@@ -110,11 +110,12 @@ Effects Study::calibration_beside(const Effects& effects) const {
   return beside;
 }
 
-Crane Study::with(const Effects& effects) const {
+Crane Study::with(const Effects& effects) const { return crane_with(calibration_beside(effects), effects); }
+
+Crane Study::crane_with(const Effects& inaccuracies, const Effects& effects) const {
   Crane crane = base_;
-  for (const Effect& inaccuracy : calibration_beside(effects))
-    crane.terms.push_back(inaccuracy.candidate->setting(inaccuracy.values));
-  for (const Effect& effect : effects) crane.terms.push_back(effect.candidate->setting(effect.values));
+  for (const Effects* all : {&inaccuracies, &effects})
+    for (const Effect& effect : *all) crane.terms.push_back(effect.candidate->setting(effect.values));
   return holding(std::move(crane));
 }
 
@@ -131,11 +132,12 @@ void Study::learn_disturbance(const Effects& effects) {
 
 void Study::calibrate() {
   double least = sum(deviance_of(train_, base_train_));
+  Slopes along;
   for (int round = 0; round < kMostNoiseRounds; ++round) {
     const Nuisance before = nuisance();
     Fitted base;
     base.train = base_train_;
-    fit_inaccuracies(base);
+    fit_inaccuracies(base, along);
     whiten_with(nuisance_of(base, {}, nuisance()));
     const double gained = least - sum(deviance_of(train_, base_train_));
     if (gained < 0) whiten_with(before);
@@ -219,21 +221,48 @@ BlockScores Study::block_scores(const Evaluation& at, const Slopes& slopes, Loss
   return joined(drive, diagnosis::block_scores(train_.load, at.load, slopes.load, loss));
 }
 
-Study::Slopes Study::slopes(const Effects& effects, const Evaluation& at) const {
-  Slopes result;
+Study::Slopes Study::plain_slopes(const Effects& effects, const Evaluation& at, Slopes known) const {
+  const std::size_t first = known.drive.size();
+  std::size_t value_index = 0;
+  std::vector<VectorXd> unmoved;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const Candidate& candidate = *effects[e].candidate;
-    for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-      const FreeParameter& p = candidate.parameters[i];
+    const bool in_drive = candidate.drive && !train_.drive.empty();
+    const bool in_load = candidate.load && !train_.load.empty();
+    for (std::size_t i = 0; i < candidate.parameters.size(); ++i, ++value_index) {
+      if (value_index < first) continue;
+      if (in_drive && unmoved.empty())
+        unmoved = train_.equation_error.plain_residuals(replays_of(train_.runs, with(effects)));
       Effects moved = effects;
       double& value = moved[e].values[i];
-      const double step = difference_step(p, value);
+      const double step = difference_step(candidate.parameters[i], value);
       value += step;
-      const Crane crane = with(moved);
-      add_slope(crane, at, step, {candidate.drive, candidate.load}, result);
+      const Replays crane = replays_of(train_.runs, with(moved));
+      std::vector<VectorXd> of_pieces;
+      if (in_drive) of_pieces = train_.equation_error.plain_residuals(crane);
+      for (std::size_t k = 0; k < of_pieces.size(); ++k) of_pieces[k] = (unmoved[k] - of_pieces[k]) / step;
+      using Changes = std::vector<VectorXd>;
+      known.drive.push_back(in_drive ? train_.drive.plain_change(crane, at.drive, step) : Changes{});
+      known.equation_error.push_back(std::move(of_pieces));
+      known.load.push_back(in_load ? train_.load.plain_change(crane, at.load, step) : Changes{});
     }
   }
+  return known;
+}
+
+Study::Slopes Study::whitened(const Slopes& plain, const Evaluation& at) const {
+  Slopes result = plain;
+  for (std::vector<VectorXd>& of_value : result.drive)
+    if (!of_value.empty()) of_value = train_.drive.whitened(of_value, at.drive);
+  for (std::vector<VectorXd>& of_value : result.equation_error)
+    if (!of_value.empty()) of_value = train_.equation_error.whitened(of_value);
+  for (std::vector<VectorXd>& of_value : result.load)
+    if (!of_value.empty()) of_value = train_.load.whitened(of_value, at.load);
   return result;
+}
+
+Study::Slopes Study::slopes(const Effects& effects, const Evaluation& at) const {
+  return whitened(plain_slopes(effects, at, {}), at);
 }
 
 }  // namespace crane::diagnosis

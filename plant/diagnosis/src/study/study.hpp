@@ -185,13 +185,20 @@ class Study {
   };
 
  private:
+  /// Slopes that do not depend on the noise. @param known  those of the leading values
+  [[nodiscard]] Slopes plain_slopes(const Effects& effects, const Evaluation& at, Slopes known) const;
+  [[nodiscard]] Slopes whitened(const Slopes& plain, const Evaluation& at) const;
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
-  /// Gauss-Newton rounds from `best`. @param along  slopes at `best` when known; those of the result on
-  /// return
+  /// The crane of the rig file with these inaccuracies and effects.
+  [[nodiscard]] Crane crane_with(const Effects& inaccuracies, const Effects& effects) const;
+  /// Gauss-Newton rounds from `best`. @param along  plain slopes at `best` of its leading values, as far as
+  /// known; those of the result on return, all or none
   /// @param apart  number of leading effects whose values also change alone
   /// @return false when the loss cannot fall below `loss_to_beat`
-  bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
-               std::size_t apart) const;
+  bool descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart) const;
+  /// fit() that begins with known plain slopes. @param along  of the effects, at their values, or empty;
+  /// those of the result on return
+  [[nodiscard]] Fitted fit(Effects effects, double loss_to_beat, const Evaluation& near, Slopes& along) const;
   /// As calibration_beside(), and also the inaccuracies that have the value of the rig file.
   [[nodiscard]] Effects inaccuracies_beside(const Effects& effects) const;
   /// The part of inaccuracies_beside() that is visible in the same parts of the data as one of the effects.
@@ -205,7 +212,9 @@ class Study {
   /// the noise.
   void calibrate();
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
-  void fit_inaccuracies(Fitted& fitted);
+  /// @param along  plain slopes of the effects, or also of these inaccuracies, at the values of the fit;
+  /// those of both on return
+  void fit_inaccuracies(Fitted& fitted, Slopes& along);
   /// True if fit_inaccuracies() suffices when only the noise model has changed.
   [[nodiscard]] bool fitted_jointly(const Effects& effects) const;
   /// Sets covariance and penalty of a fit. @param along slopes, of the effects first

@@ -71,11 +71,7 @@ Effects Study::visible_inaccuracies_beside(const Effects& effects) const {
   return beside;
 }
 
-double Study::zero_std_dev(Output swing) const {
-  double std_dev = 0;
-  for (const PreparedRun& run : train_.runs) std_dev = std::max(std_dev, run.least_noise[swing]);
-  return std_dev;
-}
+double Study::zero_std_dev(Output swing) const { return least_noise_of(train_.runs, swing); }
 
 std::vector<Study::HeldError> Study::zero_errors(Effects& effects) const {
   std::vector<HeldError> errors;

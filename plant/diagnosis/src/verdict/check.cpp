@@ -61,7 +61,7 @@ Check check(const configuration::Rig& rig, std::vector<Run> train, const Request
   Runs runs = prepared(std::move(train), rig, request.accuracy), none;
   require_excitation(runs, none, rig);
   hold_resting_drives(runs, none);
-  Study study(rig, runs, none, request.excluded);
+  Study study(rig, runs, none, request.excluded, request.accuracy);
   request.progress(0.1, "noise and disturbance");
   study.learn_disturbance();
   request.progress(0.3, "what the data show");

@@ -37,6 +37,7 @@ struct PreparedRun {
   /// compared with `run.measured`, at its own times.
   std::array<std::vector<double>, kOutputs> on_grid;
   Motion cable;
+  double rig_cable_m = 0;  ///< cable length of the rig file at the start; 0: unknown
   /// `motion` in the middle of each step: [0] without, [1] with inner coordinates.
   std::array<std::vector<MeasuredKinematics>, 2> mid_step;
   std::array<double, kOutputs> least_noise{};  ///< quantisation noise, standard deviation, m or rad
@@ -103,6 +104,8 @@ class Replay {
 };
 
 using Runs = std::vector<PreparedRun>;
+/// Quantisation noise of the run with the coarsest sensor, standard deviation, m or rad.
+[[nodiscard]] double least_noise_of(const Runs& runs, Output output);
 using Replays = std::vector<Replay>;
 /// The crane on every run. @param runs outlive the replays
 [[nodiscard]] Replays replays_of(const Runs& runs, const Crane& crane);
