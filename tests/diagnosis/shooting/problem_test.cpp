@@ -1,0 +1,58 @@
+/// Windows of a load: slopes before and after whitening, and the natural frequency.
+#include "shooting/problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include "crane/plant/pendulum.hpp"
+#include "laboratory/strange_lab.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+struct Laboratory {
+  configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
+  Run run = [this] {
+    const strange::Gantry crane;
+    const auto truth = strange::moved(crane, 12, [](double t) { return 0.8 * strange::rich_command(t); });
+    return load_run(strange::recorded(truth, {.seed = 1}), rig, "drag.csv").runs.at(0);
+  }();
+  double natural_radps = plant::swing_radps(rig.plant.gravity_mps2, rig.start.position[plant::kHoist]);
+};
+
+TEST(WindowsOfALoad, HaveTheSlopesOfTheirWhitenedOutputs) {
+  Laboratory lab;
+  Runs runs;
+  runs.push_back(prepare(std::move(lab.run), lab.rig));
+  Problem problem(runs, Part::load, 2, lab.natural_radps);
+  Crane crane{lab.rig.plant, lab.rig.terms};
+  const Replays at = replays_of(runs, crane);
+  problem.learn_disturbance(at);
+  const Fits fits = problem.fit(at);
+  const double step = 0.01;
+  crane.parameters.gravity_mps2 += step;
+  const Replays moved = replays_of(runs, crane);
+  const auto slopes = problem.whitened(problem.plain_change(moved, fits, step), fits);
+  const auto expected = problem.change(moved, fits, step);
+  ASSERT_EQ(slopes.size(), expected.size());
+  for (std::size_t w = 0; w < slopes.size(); ++w) {
+    EXPECT_GT(expected[w].norm(), 0);
+    EXPECT_LT((slopes[w] - expected[w]).norm(), 1e-9 * expected[w].norm()) << "window " << w;
+  }
+}
+
+TEST(WindowsOfALoad, SwingAtTheCableLengthOfTheirRun) {
+  const Laboratory lab;
+  Run longer = lab.run;
+  for (double& cable_m : longer.cable_m) cable_m *= 4;
+  Runs runs;
+  runs.push_back(prepare(lab.run, lab.rig));
+  runs.push_back(prepare(longer, lab.rig));
+  const Problem problem(runs, Part::load, 2, lab.natural_radps);
+  for (std::size_t w = 0; w < problem.windows().size(); ++w) {
+    const double ratio = problem.windows()[w].run == 0 ? 1 : 0.5;
+    EXPECT_NEAR(problem.motion(0, w).natural_radps, ratio * lab.natural_radps, 0.01 * lab.natural_radps);
+  }
+}
+
+}  // namespace
+}  // namespace crane::diagnosis
