@@ -41,12 +41,6 @@ inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
                                   "which both count as equal",
                                   "as pattern: the equations of the terms leave this share of the loss"};
 
-// Inaccuracies of the rig file (verdict/stated_accuracy.cpp).
-inline constexpr Rule kBeyondAccuracy{
-    "beyond_accuracy", 1.96, "standard deviations",
-    "minimum distance of a value from the stated accuracy of its quantity, for a cause",
-    "level 95 % of the interval"};
-
 // Proof on held-out runs (verdict/diagnose.cpp).
 inline constexpr Rule kHeldOutWin{
     "held_out_win", 0.95, "1", "minimum share of held-out resamples in which the extended model is likelier",
@@ -111,7 +105,6 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kClearWin,
                                  kRunnerUp,
                                  kIndistinct,
-                                 kBeyondAccuracy,
                                  kHeldOutWin,
                                  kGainLevel,
                                  kWorthwhile,

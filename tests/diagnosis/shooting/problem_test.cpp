@@ -11,7 +11,7 @@ namespace {
 
 struct Laboratory {
   configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
-  Run run = [this] {
+  diagnosis::Run run = [this] {
     const strange::Gantry crane;
     const auto truth = strange::moved(crane, 12, [](double t) { return 0.8 * strange::rich_command(t); });
     return load_run(strange::recorded(truth, {.seed = 1}), rig, "drag.csv").runs.at(0);
@@ -42,7 +42,7 @@ TEST(WindowsOfALoad, HaveTheSlopesOfTheirWhitenedOutputs) {
 
 TEST(WindowsOfALoad, SwingAtTheCableLengthOfTheirRun) {
   const Laboratory lab;
-  Run longer = lab.run;
+  diagnosis::Run longer = lab.run;
   for (double& cable_m : longer.cable_m) cable_m *= 4;
   Runs runs;
   runs.push_back(prepare(lab.run, lab.rig));

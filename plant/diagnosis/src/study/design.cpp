@@ -1,9 +1,9 @@
 #include "study/design.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "quantile.hpp"
 #include "rules.hpp"
 #include "study/blocks.hpp"
 
@@ -12,14 +12,12 @@ namespace {
 
 using Eigen::Index;
 
-/// Standard normal quantile of 1 - p.
-double beyond(double p) { return std::sqrt(2.0) * boost::math::erfc_inv(2 * p); }
-
 /// Amount, in standard deviations, that is found with the probability kPower if the largest of `tests` scores
 /// without an effect exceeds the threshold with the probability rules::kSignificant (Bonferroni).
 double found_at(std::size_t tests, bool one_sided) {
   const double sides = one_sided ? 1 : 2;
-  return beyond(rules::kSignificant / (sides * static_cast<double>(tests))) + beyond(1 - kPower);
+  return upper_quantile(rules::kSignificant / (sides * static_cast<double>(tests))) +
+         upper_quantile(1 - kPower);
 }
 
 /// Standard deviation of a single amount: by the learnt noise, at least the scatter of the blocks.

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "quantile.hpp"
 #include "rules.hpp"
 #include "search/parts.hpp"
 #include "study/inaccuracies.hpp"
@@ -48,12 +49,19 @@ std::vector<double> StatedAccuracy::limits_of(const Candidate& candidate) const 
   return largest_inaccuracy(candidate.cause, candidate.axis, rig_, accuracy_);
 }
 
-bool StatedAccuracy::contains_values(const Effect& effect, std::span<const double> std_dev) const {
+double StatedAccuracy::deviations_beyond(const Study& study) const {
+  const auto tests = std::ranges::count_if(
+      study.candidates(), [this](const Candidate& candidate) { return is_stated(candidate); });
+  return upper_quantile(rules::kFamilywiseLevel / (2 * static_cast<double>(tests)));
+}
+
+bool StatedAccuracy::contains_values(const Effect& effect, std::span<const double> std_dev,
+                                     double deviations) const {
   std::vector<double> limits = limits_of(*effect.candidate);
   if (is_confounded_with_a_scale(*effect.candidate)) limits[0] += accuracy_.values;
   for (std::size_t i = 0; i < limits.size(); ++i)
     if (std::abs(effect.values[i] - effect.candidate->parameters[i].null) >
-        limits[i] + rules::kBeyondAccuracy * std_dev[i])
+        limits[i] + deviations * std_dev[i])
       return false;
   return true;
 }
@@ -108,7 +116,7 @@ std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted
     contained.push_back(limits_of(*effects[i].candidate).empty()
                             ? is_error_of_zero(study, effects[i]) ||
                                   std::ranges::equal(by_effect[i], largest, std::less_equal{})
-                            : contains_values(effects[i], std_dev));
+                            : contains_values(effects[i], std_dev, deviations_beyond(study)));
     std_dev = std_dev.subspan(effects[i].values.size());
   }
   return contained;

@@ -18,12 +18,12 @@ class StatedAccuracy {
   StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy);
 
   /// True for each effect within the accuracy of the rig file. If the accuracy of its quantity is stated, the
-  /// effect is within the accuracy when the 95 % intervals of all its values contain a value that is; the
-  /// error of a scale and that of a confounded quantity add. Any other effect is within the accuracy when it
-  /// changes the simulation of no output more than the largest stated inaccuracy of a drive, a position or
-  /// the swing scale changes the simulation of the rig file, or when it is a swing offset of at most half a
-  /// resolution of the sensor. A change is an rms in the windows of the training data and, for a swing, over
-  /// whole runs, from the same starts.
+  /// effect is within the accuracy when all its values are less than deviations_beyond() standard deviations
+  /// away from the accuracy; the error of a scale and that of a confounded quantity add. Any other effect is
+  /// within the accuracy when it changes the simulation of no output more than the largest stated inaccuracy
+  /// of a drive, a position or the swing scale changes the simulation of the rig file, or when it is a swing
+  /// offset of at most half a resolution of the sensor. A change is an rms in the windows of the training
+  /// data and, for a swing, over whole runs, from the same starts.
   /// @param fitted with std_dev from with_intervals()
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
@@ -44,9 +44,14 @@ class StatedAccuracy {
 
   /// Stated accuracy of the leading parameters; empty if its quantity has none.
   [[nodiscard]] std::vector<double> limits_of(const Candidate& candidate) const;
+  /// Number of standard deviations at which one of the candidates with a stated accuracy is beyond its
+  /// accuracy with the probability kFamilywiseLevel if all are within it (Bonferroni): the effects to judge
+  /// are the best of these candidates.
+  [[nodiscard]] double deviations_beyond(const Study& study) const;
   /// @pre the quantity of the effect has a stated accuracy
-  /// @param std_dev of its values
-  [[nodiscard]] bool contains_values(const Effect& effect, std::span<const double> std_dev) const;
+  /// @param std_dev of its values @param deviations from deviations_beyond()
+  [[nodiscard]] bool contains_values(const Effect& effect, std::span<const double> std_dev,
+                                     double deviations) const;
   /// Cranes whose rig file is wrong by one stated inaccuracy each.
   [[nodiscard]] std::vector<Crane> inaccurate_cranes(const Study& study, const Crane& crane) const;
 
