@@ -25,6 +25,7 @@ class Conversation {
   Conversation(bus::Bus& bus, const stack::OperatorRequest& wanted)
       : bus_{bus},
         wanted_{wanted},
+        names_status_{wanted.seen.sample_time_ns != 0},
         client_{bus, client_name(), first_id()},
         supervisor_{bus.subscriber(topics::supervisor)} {
     if (wanted.kind == crane_REQUEST_MOVE || wanted.kind == crane_REQUEST_JOG)
@@ -70,7 +71,7 @@ class Conversation {
   void hear_supervisor() {
     while (const auto status = supervisor_.take()) {
       heard_supervisor_ = true;
-      wanted_.seen = status->header;
+      if (!names_status_) wanted_.seen = status->header;
     }
   }
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
@@ -104,6 +105,7 @@ class Conversation {
 
   bus::Bus& bus_;
   stack::OperatorRequest wanted_;
+  bool names_status_;
   stack::OperatorClient client_;
   bus::Subscriber<msg::SupervisorStatus> supervisor_;
   std::optional<bus::Subscriber<msg::Reference>> planner_;

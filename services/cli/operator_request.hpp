@@ -31,7 +31,10 @@ struct Patience {
 /// Sends the request and waits for the answer. A stop or emergency stop is sent as soon as crane/request has
 /// a reader and crane/reply a writer, and is repeated every 100 ms until the answer. Any other request is
 /// sent once, after the supervisor has answered a probe; a move or a session of the stick also waits for a
-/// sample of crane/reference. @throws NoAnswer
+/// sample of crane/reference.
+/// @param wanted  without `seen`, the request names the newest status; with it, the supervisor refuses the
+///   request if the crane has stopped since this status
+/// @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 
 /// Repeats the request `stop` every 20 ms until the supervisor answers. A stop signal to this program does

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/realtime_session.hpp"
+#include "experiments/started_rig_file.hpp"
 #include "stack/launch.hpp"
 
 namespace crane::experiments {
@@ -53,25 +54,56 @@ void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& 
 void wait_until(RealtimeSession& session, std::int64_t time_ns) {
   const auto left_ns = time_ns - session.state()->header.sample_time_ns;
   if (left_ns > 0) session.wait(nanoseconds{left_ns});
-  if (session.status()->state >= crane_STATE_STOP_C1)
-    throw SessionError("the supervisor stopped the crane: " + in_words(*session.status()));
 }
 
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
 
+/// Rig file of one run, in the directory of temporary files.
+class StartedRigFile {
+ public:
+  explicit StartedRigFile(const configuration::Rig& rig)
+      : path_{std::filesystem::temp_directory_path() /
+              ("crane_rig_" + std::to_string(::getpid()) + ".toml")} {
+    write_started_rig(path_, rig);
+  }
+  ~StartedRigFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  StartedRigFile(const StartedRigFile&) = delete;
+  StartedRigFile& operator=(const StartedRigFile&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 }  // namespace
 
-recording::Table run_in_realtime(const RealtimeRunOptions& options, const experiment::Scenario& scenario) {
-  const auto specs = stack::stack_with(options.plant);
-  stack::LaunchOptions launch_options{.bus = options.bus,
-                                      .vendors = options.vendors,
-                                      .rig = options.rig.string(),
-                                      .controller = options.controller};
-  if (options.plant == stack::Plant::simulated)
-    launch_options.bus.crane += "_run_" + std::to_string(::getpid());
+recording::Table RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
+                                   const experiment::Scenario& scenario) {
+  if (!end_) return run_from_start(rig_file, controller, scenario);
+  if (!end_->load_at_rest)
+    throw SessionError(
+        "the load still swings after the run before: the bridge cannot set the swing to zero; wait until the "
+        "load hangs at rest, set [start] to the present position, and start the remaining runs");
+  auto rig = configuration::load_rig(rig_file);
+  rig.start.position = end_->position;
+  const StartedRigFile started{rig};
+  return run_from_start(started.path(), controller, scenario);
+}
+
+recording::Table RealtimeRuns::run_from_start(const std::filesystem::path& rig_file,
+                                              const std::string& controller,
+                                              const experiment::Scenario& scenario) {
+  const bool real = options_.plant == stack::Plant::hardware;
+  const auto specs = stack::stack_with(options_.plant);
+  stack::LaunchOptions launch_options{
+      .bus = options_.bus, .vendors = options_.vendors, .rig = rig_file.string(), .controller = controller};
+  if (!real) launch_options.bus.crane += "_run_" + std::to_string(::getpid());
   stack::ChildProcesses children;
-  if (options.plant == stack::Plant::hardware)
-    stack::launch_rig(children, configuration::load_rig(options.rig), launch_options);
+  const auto rig = configuration::load_rig(rig_file);
+  if (real) stack::launch_rig(children, rig, launch_options);
   stack::launch(children, specs, launch_options);
   auto observer = launch_options.bus;
   observer.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
@@ -82,6 +114,7 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
                               throw SessionError(stack::describe(*ended));
                             if (runtime::stop_requested()) throw SessionError("interrupted");
                           }};
+  session.end_at_stops();
   session.arm();
   go_to_scenario_start(session, scenario);
   session.start_table();
@@ -92,8 +125,12 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
   }
   wait_until(session, zero_ns + ns(scenario.end_s()));
   const auto table = session.table().table(zero_ns);
-  session.request({.kind = crane_REQUEST_DISARM}, "disarm");
-  session.wait(300ms);
+  const bool at_rest = !real || !rig.has_load() || session.wait_for_rest(kPatience);
+  session.disarm();
+  if (real) {
+    const msg::State& last = *session.state();
+    end_ = End{{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m}, at_rest};
+  }
   children.stop();
   return table;
 }

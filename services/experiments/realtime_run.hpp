@@ -1,7 +1,10 @@
 #pragma once
-/// Runs a scenario in real time with a stack of processes, on a real or simulated crane: reset, arm, a move
-/// to the start of the scenario, then its moves and excitations at their times.
+/// Runs scenarios in real time with a stack of processes, on a real or simulated crane: reset, arm, a move to
+/// the start of the scenario, then its moves and excitations at their times.
+#include <array>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "crane/experiment/scenario.hpp"
@@ -12,17 +15,37 @@
 namespace crane::experiments {
 
 struct RealtimeRunOptions {
-  std::filesystem::path rig;
-  std::string controller;
   stack::Plant plant = stack::Plant::simulated;
   runtime::BusOptions bus;
   std::map<std::string, std::string> vendors;
 };
 
-/// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
-/// @return the run as a table; time_s is 0 when the crane is in HOLD at the start of the scenario
-/// @throws configuration::ConfigurationError, SessionError, std::runtime_error
-[[nodiscard]] recording::Table run_in_realtime(const RealtimeRunOptions& options,
-                                               const experiment::Scenario& scenario);
+/// Runs on one crane, one after the other; each starts the processes anew. A starting bridge sets its
+/// incremental encoders to `[start]` of the rig file. A simulated crane starts there. A real crane remains
+/// where the run before has left it: on a real crane, `[start]` of each further run is this position, and a
+/// load must hang at rest between two runs, because the bridge sets the swing to zero.
+class RealtimeRuns {
+ public:
+  explicit RealtimeRuns(RealtimeRunOptions options) : options_{std::move(options)} {}
+
+  /// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
+  /// @return the run as a table; time_s is 0 when the crane is in HOLD at the start of the scenario
+  /// @throws SessionError when the crane was stopped, or when the load still swings after the run before;
+  ///   configuration::ConfigurationError, std::runtime_error
+  [[nodiscard]] recording::Table run(const std::filesystem::path& rig_file, const std::string& controller,
+                                     const experiment::Scenario& scenario);
+
+ private:
+  struct End {
+    std::array<double, 3> position;  ///< trolley m, slew rad, cable length m
+    bool load_at_rest;
+  };
+  [[nodiscard]] recording::Table run_from_start(const std::filesystem::path& rig_file,
+                                                const std::string& controller,
+                                                const experiment::Scenario& scenario);
+
+  RealtimeRunOptions options_;
+  std::optional<End> end_;  ///< of the last run on a real crane
+};
 
 }  // namespace crane::experiments

@@ -49,11 +49,30 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
   while (const auto sample = states_.take()) table_.add(*(state_ = sample));
   while (const auto sample = references_.take()) table_.add(*sample);
   while (const auto sample = demands_.take()) table_.add(*sample);
-  while (const auto sample = statuses_.take()) table_.add(*(status_ = sample));
+  while (const auto sample = statuses_.take()) {
+    table_.add(*(status_ = sample));
+    end_if_stopped(*sample);
+  }
   operator_.receive();
   if (runtime::monotonic_ns() < next_meanwhile_ns_) return;
   next_meanwhile_ns_ = runtime::monotonic_ns() + 20'000'000;
   meanwhile_();
+}
+
+void RealtimeSession::end_if_stopped(const msg::SupervisorStatus& status) {
+  if (!ends_at_stops_) return;
+  const bool by_operator =
+      status.cause == crane_CAUSE_OPERATOR_STOP || status.cause == crane_CAUSE_OPERATOR_ESTOP;
+  const bool armed = status.state == crane_STATE_HOLD || status.state == crane_STATE_RUN;
+  was_in_hold_ = was_in_hold_ || armed;
+  if (by_operator || (was_in_hold_ && !armed))
+    throw SessionError("the crane was stopped: " + in_words(status));
+}
+
+void RealtimeSession::disarm() {
+  ends_at_stops_ = false;
+  request({.kind = crane_REQUEST_DISARM}, "disarm");
+  wait(std::chrono::milliseconds{300});
 }
 
 template <class Condition>
@@ -126,9 +145,13 @@ void RealtimeSession::move_to(const std::array<bool, 3>& selected, const std::ar
   request({.kind = crane_REQUEST_MOVE, .selected = selected, .target = target}, "move");
   wait_for(crane_STATE_RUN, std::chrono::seconds{1});
   wait_for(crane_STATE_HOLD, patience);
+  wait_for_rest(patience);
+}
+
+bool RealtimeSession::wait_for_rest(std::chrono::milliseconds patience) {
   constexpr double kStill_rad = 0.2 * M_PI / 180;
   constexpr double kStill_radps = 0.01;
-  until(
+  return until(
       [&] {
         return std::abs(state_->swing_radial_rad) < kStill_rad &&
                std::abs(state_->swing_tangential_rad) < kStill_rad &&

@@ -36,8 +36,15 @@ class RealtimeSession {
   /// @throws SessionError when the move is refused or does not end within `patience`
   void move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                std::chrono::milliseconds patience);
+  /// Waits at most `patience` until the load hangs at rest. @return whether it does
+  bool wait_for_rest(std::chrono::milliseconds patience);
   /// Waits for `duration`.
   void wait(std::chrono::nanoseconds duration);
+  /// From now on, requests and waits throw SessionError when an operator stops the crane, and when any cause
+  /// stops it after it was in HOLD: a program must not reset what it did not stop.
+  void end_at_stops() { ends_at_stops_ = true; }
+  /// Disarms the crane and waits until its brakes close. Afterwards, stops end nothing. @throws SessionError
+  void disarm();
 
   /// All measurements since the last call of start_table().
   [[nodiscard]] const recording::RunTable& table() const { return table_; }
@@ -49,6 +56,8 @@ class RealtimeSession {
   /// @return reason of the supervisor's refusal; empty when accepted. @throws SessionError without an answer
   std::string refusal_of(const stack::OperatorRequest& wanted, const std::string& what);
   void take(std::chrono::nanoseconds timeout);
+  /// @throws SessionError, see end_at_stops()
+  void end_if_stopped(const msg::SupervisorStatus& status);
   template <class Condition>
   bool until(Condition condition, std::chrono::nanoseconds patience);
 
@@ -63,6 +72,7 @@ class RealtimeSession {
   std::optional<msg::State> state_;
   std::optional<msg::SupervisorStatus> status_;
   std::int64_t next_meanwhile_ns_ = 0;
+  bool ends_at_stops_ = false, was_in_hold_ = false;
 };
 
 /// Text of state, cause and remedy: "STOP_C1 because of SWING_LIMIT; remedy".

@@ -54,7 +54,9 @@ std::string excitation_text(double at_s, const control::Excitation& excitation) 
 class Experiment {
  public:
   explicit Experiment(const FrictionExperimentOptions& options)
-      : options_{options}, rig_{configuration::load_rig(options.rig)} {
+      : options_{options},
+        rig_{configuration::load_rig(options.rig)},
+        realtime_runs_{{.plant = options.plant, .bus = options.bus, .vendors = options.vendors}} {
     const auto& drive = rig_.drives[options.axis];
     if (options.axis > plant::kSlew || !drive.present)
       throw configuration::ConfigurationError({rig_.path + ": " + plant::kCoordinates[options.axis].name +
@@ -179,12 +181,7 @@ class Experiment {
 
   recording::Table run_part_in_realtime(const std::string& name, const fs::path& rig) {
     const auto scenario = experiment::load_scenario(file(name + ".toml"), &rig_);
-    const auto table = experiments::run_in_realtime({.rig = rig,
-                                                     .controller = kController,
-                                                     .plant = options_.plant,
-                                                     .bus = options_.bus,
-                                                     .vendors = options_.vendors},
-                                                    scenario);
+    const auto table = realtime_runs_.run(rig, kController, scenario);
     fs::create_directories(file(name));
     recording::write_csv(file(name) / "run.csv", table);
     return table;
@@ -257,6 +254,7 @@ class Experiment {
 
   const FrictionExperimentOptions& options_;
   configuration::Rig rig_;
+  experiments::RealtimeRuns realtime_runs_;
   id::ExcitationLimits limits_;
   id::LinearLoop loop_;
   plant::PerAxis start_{};

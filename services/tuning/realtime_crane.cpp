@@ -1,20 +1,19 @@
 #include "tuning/realtime_crane.hpp"
 
-#include "experiments/realtime_run.hpp"
+#include <utility>
+
 #include "experiments/started_rig_file.hpp"
 
 namespace crane::tuning {
 
+RealtimeCrane::RealtimeCrane(RealtimeOptions options)
+    : directory_{std::move(options.directory)},
+      runs_{{.plant = options.plant, .bus = std::move(options.bus), .vendors = std::move(options.vendors)}} {}
+
 Motion RealtimeCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {
-  const auto file = options_.directory / "motion_rig.toml";
+  const auto file = directory_ / "motion_rig.toml";
   experiments::write_started_rig(file, rig);
-  return {experiments::run_in_realtime({.rig = file,
-                                        .controller = "none",
-                                        .plant = options_.plant,
-                                        .bus = options_.bus,
-                                        .vendors = options_.vendors},
-                                       scenario),
-          ""};
+  return {runs_.run(file, "none", scenario), ""};
 }
 
 }  // namespace crane::tuning

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "crane/runtime/process.hpp"
+#include "experiments/realtime_run.hpp"
 #include "stack/stack.hpp"
 #include "tuning/crane_access.hpp"
 
@@ -18,11 +19,12 @@ struct RealtimeOptions {
 
 class RealtimeCrane final : public CraneAccess {
  public:
-  explicit RealtimeCrane(RealtimeOptions options) : options_{std::move(options)} {}
+  explicit RealtimeCrane(RealtimeOptions options);
   [[nodiscard]] Motion execute(const configuration::Rig& rig, const experiment::Scenario& scenario) override;
 
  private:
-  RealtimeOptions options_;
+  std::filesystem::path directory_;
+  experiments::RealtimeRuns runs_;
 };
 
 }  // namespace crane::tuning

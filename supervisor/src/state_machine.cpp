@@ -120,6 +120,18 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
 }
 
+/// Causes of a stop that no fault required. Programs reset such stops by themselves.
+bool is_routine(Cause cause) {
+  return cause == Cause::start || cause == Cause::homed || cause == Cause::operator_disarm ||
+         cause == Cause::idle;
+}
+
+/// A stop of the operator during or after a routine stop becomes its cause: a program that would reset the
+/// routine stop sees that the crane must stay.
+void note_operator_stop(const Inputs& in, Memory& m) {
+  if (requested(in, Request::stop) && is_routine(m.cause)) m.cause = Cause::operator_stop;
+}
+
 void step_stop(const Limits& limits, const Inputs& in, Memory& m) {
   if (m.state == State::stop_c1 && !m.ramping && in.standstill) start_ramp(m);
   if (m.state == State::stop_c1 && m.ramping && m.ramp_tick < ramp_ticks(limits)) {
@@ -142,6 +154,8 @@ void transition(const Limits& limits, const Inputs& in, const Answers& answers, 
       enter(State::locked, m.cause, in, m);
       break;
     case State::locked:
+      note_operator_stop(in, m);
+      [[fallthrough]];
     case State::estop:
       if (!accepted(answers, Request::reset)) break;
       if (m.self_test_passed) {
@@ -162,6 +176,7 @@ void transition(const Limits& limits, const Inputs& in, const Answers& answers, 
       break;
     case State::stop_c1:
     case State::stop_c0:
+      note_operator_stop(in, m);
       step_stop(limits, in, m);
       break;
     case State::fault:

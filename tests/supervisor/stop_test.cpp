@@ -50,6 +50,27 @@ TEST(Supervisor, DisarmEndsLocked) {  // S7
   EXPECT_EQ(t.cause(), Cause::operator_disarm);
 }
 
+TEST(Supervisor, AnOperatorStopReplacesTheCauseOfARoutineStopOnly) {
+  Timeline routine;
+  routine.to_hold();
+  routine.disarm();
+  routine.run(0.5);
+  ASSERT_EQ(routine.state(), State::locked);
+  ASSERT_EQ(routine.cause(), Cause::operator_disarm);
+  routine.stop();
+  EXPECT_EQ(routine.state(), State::locked);
+  EXPECT_EQ(routine.cause(), Cause::operator_stop);
+
+  Timeline fault;
+  fault.to_hold();
+  fault.world.demand_arrived = false;
+  fault.run(0.5);
+  ASSERT_EQ(fault.state(), State::locked);
+  ASSERT_EQ(fault.cause(), Cause::demand_stale);
+  fault.stop();
+  EXPECT_EQ(fault.cause(), Cause::demand_stale);
+}
+
 TEST(Supervisor, IdleHoldLocksAfterAMinute) {  // S8
   Timeline t;
   t.to_hold();

@@ -40,6 +40,7 @@ class Watch {
     return reached;
   }
   [[nodiscard]] const msg::State& state() const { return *state_; }
+  [[nodiscard]] const msg::SupervisorStatus& status() const { return *status_; }
 
  private:
   bus::Bus& bus_;
@@ -86,16 +87,22 @@ void follow(Watch& watch, std::size_t axis, double timeout_s) {
 }
 
 /// The homing of an axis ends with a stop. Resets this stop when its cause has been inactive for a second.
+/// Each request names the status that it answers: the supervisor refuses it if an operator has stopped the
+/// crane since.
 void acknowledge(bus::Bus& bus, Watch& watch) {
   constexpr double kStops_s = 5;
   constexpr int kTries = 20;
-  watch.until(kStops_s, [](const msg::SupervisorStatus& status, const msg::State&) {
-    return status.state == crane_STATE_LOCKED && status.cause == crane_CAUSE_HOMED;
-  });
+  const auto stops_by_homing = [](const msg::SupervisorStatus& status) {
+    return status.cause == crane_CAUSE_HOMED;
+  };
   Answer answer;
   for (int i = 0; i < kTries && !answer.accepted; ++i) {
     if (i > 0) watch.until(0.2, [](const auto&, const auto&) { return false; });
-    answer = ask(bus, {.kind = crane_REQUEST_RESET});
+    watch.until(kStops_s, [&](const msg::SupervisorStatus& status, const msg::State&) {
+      return status.state == crane_STATE_LOCKED || !stops_by_homing(status);
+    });
+    if (!stops_by_homing(watch.status())) throw_stopped(watch.status());
+    answer = ask(bus, {.kind = crane_REQUEST_RESET, .seen = watch.status().header});
   }
   if (!answer.accepted) throw std::runtime_error("home: reset refused: " + answer.reason);
 }

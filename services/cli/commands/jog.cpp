@@ -155,13 +155,18 @@ void add_jog(CLI::App& app, Action& chosen) {
   add_stick_options(*command, *options);
   runtime::add_bus_options(*command, options->stick.bus);
   command->footer(kJogNotes);
-  command->callback([options, &chosen] {
+  command->callback([options, command, &chosen] {
     const bool any = options->selected != std::array<bool, 3>{};
     for (std::size_t i = 0; i < options->stick.selected.size(); ++i)
       options->stick.selected[i] =
           std::ranges::find(options->axes, plant::kCoordinates[i].name) != options->axes.end();
     if (options->gamepad && (any || options->stick.inching))
       throw CLI::ValidationError("--gamepad", "excludes --trolley, --slew, --hoist and --inch");
+    for (const char* of_keys : {"--inch", "--step", "--axes"})
+      if (any && command->count(of_keys) > 0)
+        throw CLI::ValidationError(of_keys,
+                                   "excludes --trolley, --slew and --hoist, which deflect the stick "
+                                   "for a time (an inching step without keys: crane move)");
     chosen = [options, any] {
       if (options->gamepad) return jog_by_gamepad(*options->gamepad, options->stick);
       return any ? scripted(*options) : jog_by_keyboard(options->stick);

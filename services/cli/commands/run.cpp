@@ -161,16 +161,12 @@ void require_possible_in_realtime(const RunOptions& options,
 int run_each_in_realtime(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   require_possible_in_realtime(options, plans);
   const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(options.plant));
+  experiments::RealtimeRuns runs{{.plant = options.plant, .bus = options.bus, .vendors = vendors}};
   for (const auto& plan : plans) {
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
     std::filesystem::create_directories(directory);  // an error is reported before any motion
-    const auto table = experiments::run_in_realtime({.rig = plan.rig.path,
-                                                     .controller = std::string{plan.controller->name},
-                                                     .plant = options.plant,
-                                                     .bus = options.bus,
-                                                     .vendors = vendors},
-                                                    plan.scenario);
+    const auto table = runs.run(plan.rig.path, std::string{plan.controller->name}, plan.scenario);
     recording::write_csv(directory / "run.csv", table);
     std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
               << (directory / "run.csv").string() << '\n';
