@@ -49,7 +49,7 @@ TEST(RealtimeRuns, EndAtAStopOfTheOperator) {
   const std::string crane = crane_name();
   const std::vector<std::string> on_bus{"--domain", std::to_string(kDomain), "--crane"};
   std::vector<std::string> arguments{
-      "run", "maneuver_1", "maneuver_3", "--clock", "realtime", "--out", directory.path().string()};
+      "run", "maneuver_1", "maneuver_3", "--clock", "realtime", "--out", (directory / "").string()};
   arguments.insert(arguments.end(), on_bus.begin(), on_bus.end());
   arguments.push_back(crane);
   ProgramRun run{stack::program_directory() / "crane", arguments};
@@ -63,7 +63,7 @@ TEST(RealtimeRuns, EndAtAStopOfTheOperator) {
   EXPECT_EQ(run.wait(10s), 1);
   EXPECT_THAT(run.errors(), testing::HasSubstr("OPERATOR_STOP"));
   EXPECT_FALSE(watcher.until([](const auto& status) { return status.state == crane_STATE_ARMING; }, 2s));
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory.path()))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory / ""))
     EXPECT_NE(entry.path().filename(), "run.csv") << "a stopped run was reported as measured";
 }
 
@@ -79,7 +79,8 @@ experiment::Scenario scenario(const TemporaryDirectory& directory, const std::st
 /// elsewhere on the rail.
 TEST(RealtimeRuns, OnARealCraneBeginWhereTheRunBeforeHasEnded) {
   const TemporaryDirectory directory;
-  experiments::RealtimeRunOptions options{.plant = stack::Plant::hardware};
+  experiments::RealtimeRunOptions options;
+  options.plant = stack::Plant::hardware;
   options.bus.domain = kDomain;
   options.bus.crane = crane_name();
   experiments::RealtimeRuns runs{options};
