@@ -52,5 +52,32 @@ TEST(CraneHome, HomesTheTrolleyAndNamesTheAxesThatAreNotHomed) {
   EXPECT_LT(ends_at_m, 0.10) << "and what a stop from 0.05 m/s takes";
 }
 
+/// `crane home` resets the stop that ends the homing of an axis, but no stop of the operator.
+TEST(CraneHome, EndsAtAStopOfTheOperatorBetweenTwoAxes) {
+  const recording::TemporaryDirectory directory;
+  const auto rig = directory / "near_its_mark.toml";
+  recording::put_contents(rig, "extends = \"" + stack::find_rig("homing_servo_to_go").string() +
+                                   "\"\n[start]\ntrolley_position_m = 0.09\n");
+  RunningStack running{kDomain, rig.string(), stack::Plant::hardware};
+  running.session().wait_for(crane_STATE_LOCKED, 5s);
+  running.session().request_with_patience({.kind = crane_REQUEST_RESET}, "reset");
+  ProgramRun home{stack::program_directory() / "crane",
+                  {"home", "--axis", "trolley", "--axis", "slew", "--domain", std::to_string(kDomain),
+                   "--crane", crane_name()}};
+  const auto homed = [&running] {
+    return !running.observer().statuses().empty() &&
+           running.observer().statuses().back().cause == crane_CAUSE_HOMED;
+  };
+  ASSERT_TRUE(running.until(homed, 60s)) << home.errors();
+  running.session().request({.kind = crane_REQUEST_STOP}, "stop");
+  running.forget();
+  EXPECT_EQ(home.wait(10s), 1);
+  EXPECT_THAT(home.errors(), HasSubstr("OPERATOR_STOP"));
+  running.listen(2s);
+  for (const auto& status : running.observer().statuses())
+    ASSERT_TRUE(status.state == crane_STATE_STOP_C1 || status.state == crane_STATE_LOCKED)
+        << experiments::in_words(status);
+}
+
 }  // namespace
 }  // namespace crane::system_test
