@@ -5,12 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 
 #include "commands/commands.hpp"
 #include "crane/configuration/rig.hpp"
+#include "crane/runtime/program_start.hpp"
 
 namespace {
 
@@ -127,7 +127,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // a write beyond the file-size limit then fails with an error message instead of a signal
-  std::signal(SIGXFSZ, SIG_IGN);
+  runtime::start_program();
   return written(run(argc, argv));
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "crane/configuration/rig.hpp"
+#include "crane/runtime/program_start.hpp"
 #include "dashboard/request_queue.hpp"
 #include "dashboard/rig_text.hpp"
 #include "dashboard/server.hpp"
@@ -134,6 +135,7 @@ void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std:
 }
 
 int main_of(int argc, char** argv) {
+  runtime::start_program();
   CLI::App app{
       "Serves the dashboard of a crane: pages, live data for viewers, /api and /metrics on one port.",
       "crane_dashboard"};

@@ -76,6 +76,20 @@ TEST(LedgerTest, CannotBeShortened) {
   EXPECT_NE(::ftruncate(ledger->descriptor(), 0), 0);
 }
 
+/// Otherwise, the messages of a program whose standard error is closed would overwrite the ledger.
+TEST(LedgerTest, HasNoStandardDescriptor) {
+  const int copy = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  ::close(STDERR_FILENO);
+  const auto ledger = Ledger::create();
+  const auto other = Ledger::open("/proc/self/fd/" + std::to_string(ledger->descriptor()));
+  const bool still_closed = ::fcntl(STDERR_FILENO, F_GETFD) < 0;
+  ::dup2(copy, STDERR_FILENO);
+  ::close(copy);
+  EXPECT_GT(ledger->descriptor(), STDERR_FILENO);
+  EXPECT_GT(other->descriptor(), STDERR_FILENO);
+  EXPECT_TRUE(still_closed);
+}
+
 TEST(LedgerTest, OfAnotherFormOrOpenToOthersIsRefusedWithTheRule) {
   const auto refusal = [](const std::string& path) -> std::string {
     try {

@@ -85,5 +85,26 @@ TEST(Descriptors, OfTheProcessesOfAStackAreNotInherited) {
   EXPECT_EQ(up.wait(10s), 0);
 }
 
+/// A service may start `crane up` with closed standard descriptors. Files of the stack must not get their
+/// numbers: the processes write their messages to descriptor 2.
+TEST(Descriptors, OfAClosedStandardErrorLeadToNoFile) {
+  ProgramRun up{
+      "/bin/sh",
+      {"-c", R"(exec "$0" "$@" <&- 2>&-)", (stack::program_directory() / "crane").string(), "up", "--domain",
+       std::to_string(kDescriptorsDomain), "--crane", crane_name(), "--priority", "0", "--no-black-box"}};
+  ASSERT_TRUE(up.wait_for("is up with", 20s)) << up.output();
+  std::size_t processes = 0;
+  for (const auto pid : processes_with(crane_name())) {
+    ++processes;
+    for (const char* descriptor : {"0", "2"})
+      EXPECT_EQ(std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/fd/" + descriptor),
+                "/dev/null")
+          << program_of(pid) << ": descriptor " << descriptor;
+  }
+  EXPECT_GE(processes, 7U);
+  up.send(SIGINT);
+  EXPECT_EQ(up.wait(10s), 0);
+}
+
 }  // namespace
 }  // namespace crane::system_test

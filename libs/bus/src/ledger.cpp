@@ -36,6 +36,17 @@ Error refused(const std::string& name, const std::string& why) {
   return Error{"ledger " + name + ": " + why};
 }
 
+/// Replaces a standard descriptor by a higher one: a program writes its messages to descriptor 2, and a
+/// message would overwrite the ledger. @return descriptor, or -1 with errno
+int beyond_standard(int descriptor) {
+  if (descriptor < 0 || descriptor > STDERR_FILENO) return descriptor;
+  const int higher = ::fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int reason = errno;
+  ::close(descriptor);
+  errno = reason;
+  return higher;
+}
+
 }  // namespace
 
 /// A new anonymous file contains zeros: empty sets.
@@ -47,7 +58,7 @@ struct Ledger::Page {
 
 std::shared_ptr<Ledger> Ledger::create() {
   const std::string name = "crane_ledger";
-  const int descriptor = ::memfd_create(name.c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  const int descriptor = beyond_standard(::memfd_create(name.c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (descriptor < 0) throw refused(name, std::strerror(errno));
   const auto length = static_cast<off_t>(sizeof(Page));
   // Without a fixed size, another process could shorten the file, and an access would end this process.
@@ -66,7 +77,7 @@ std::shared_ptr<Ledger> Ledger::create() {
 
 std::shared_ptr<Ledger> Ledger::open(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const int descriptor = ::open(name.c_str(), O_RDWR | O_CLOEXEC);
+  const int descriptor = beyond_standard(::open(name.c_str(), O_RDWR | O_CLOEXEC));
   if (descriptor < 0) throw refused(name, std::strerror(errno));
   struct stat file {};
   ::fstat(descriptor, &file);

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "crane/runtime/node.hpp"
+#include "crane/runtime/program_start.hpp"
 #include "crane/runtime/signals.hpp"
 #include "crane/runtime/spin_limit.hpp"
 
@@ -47,6 +48,7 @@ Clock clock_from(const std::string& name) {
 
 int host(int argc, char** argv, const std::string& program, const std::string& summary,
          const std::function<int(const LoopOptions&)>& run) {
+  start_program();
   CLI::App app{summary, program};
   LoopOptions options;
   add_loop_options(app, options);

@@ -8,6 +8,7 @@
 
 #include "crane/emulated_rig/rig_server.hpp"
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/program_start.hpp"
 #include "crane/runtime/realtime_scheduling.hpp"
 
 namespace {
@@ -53,6 +54,7 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  runtime::start_program();
   CLI::App app{
       "A crane with an emulated Servo-to-Go card, for the hardware bridge of the same crane and domain.",
       "crane_emulated_rig"};
