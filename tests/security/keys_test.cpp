@@ -165,6 +165,36 @@ TEST_F(Keys, AnIdentityOfTheOtherVendorIsRefused) {
               ElementsAre(AllOf(HasSubstr("CN=tracking.fastdds"), HasSubstr("0x80"))));
 }
 
+/// Files of one role in the directory of another one.
+TEST_F(Keys, OfAnotherRoleAreRefused) {
+  for (const auto& [from, to] : {std::pair{"supervisor", "operator"}, {"monitor", "operator"}}) {
+    std::filesystem::copy(
+        directory() / from, directory() / to,
+        std::filesystem::copy_options::overwrite_existing | std::filesystem::copy_options::recursive);
+    EXPECT_THAT(problems_of(to),
+                Contains(AllOf(HasSubstr("operator/cyclone/certificate.pem: subject CN=" + std::string{from}),
+                               HasSubstr("is the identity of another role than operator"))));
+    EXPECT_THAT(problems_of(to), Contains(AllOf(HasSubstr("permissions.smime"),
+                                                HasSubstr("other topics than those of the role operator"))));
+  }
+}
+
+/// A user who can write one of these can give the crane other authorities.
+TEST_F(Keys, DirectoriesAndFilesThatOthersMayWriteAreRefusedWithTheRemedy) {
+  const auto files = identity(directory(), "operator", "cyclone");
+  for (const auto& path :
+       {directory(), directory() / "operator", directory() / "operator" / "cyclone", files.identity_ca,
+        files.permissions_ca, files.governance, files.certificate, files.permissions})
+    for (const mode_t writable : {S_IWGRP, S_IWOTH}) {
+      const auto mode = mode_of(path);
+      ASSERT_EQ(::chmod(path.c_str(), mode | writable), 0);
+      EXPECT_THAT(problems_of("operator"), ElementsAre(AllOf(HasSubstr(path.string() + ": mode "),
+                                                             HasSubstr("must not be able to write"),
+                                                             HasSubstr("chmod go-w " + path.string()))));
+      ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+    }
+}
+
 TEST_F(Keys, EachFileThatIsMissingIsNamed) {
   const auto files = identity(directory(), "planner", "cyclone");
   std::filesystem::remove(files.key);

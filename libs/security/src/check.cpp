@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "crane/security/keys.hpp"
+#include "documents.hpp"
 #include "openssl.hpp"
 
 namespace crane::security {
@@ -43,6 +44,7 @@ class Checker {
         say(*file, "does not exist or may not be read",
             "; `crane keys show DIR` lists the roles that DIR has keys for");
     if (!problems_.empty()) return problems_;
+    check_access();
     check_certificates();
     check_key();
     check_documents();
@@ -50,6 +52,23 @@ class Checker {
   }
 
  private:
+  /// A user who can change these files or directories can replace the authorities, and with them all keys.
+  void check_access() {
+    const auto own = files_.certificate.parent_path();
+    const auto directory = files_.identity_ca.parent_path();
+    for (const auto& path : {directory, own.parent_path(), own, files_.identity_ca, files_.permissions_ca,
+                             files_.governance, files_.certificate, files_.permissions})
+      if (const auto mode = mode_of(path); (mode & (S_IWGRP | S_IWOTH)) != 0)
+        say(path, "mode " + octal(mode) + ": other users must not be able to write",
+            "; chmod go-w " + path.string());
+  }
+
+  /// @return permissions of the file; 0 when it cannot be examined
+  static mode_t mode_of(const fs::path& file) {
+    struct stat status {};
+    return ::stat(file.c_str(), &status) == 0 ? status.st_mode & 07777U : 0;
+  }
+
   void say(const fs::path& file, const std::string& what, const std::string& remedy) {
     problems_.push_back(file.string() + ": " + what + remedy);
   }
@@ -83,20 +102,22 @@ class Checker {
     if (!openssl::is_signed_by(*certificate_, *authority))
       say(files_.certificate,
           "is not signed by " + files_.identity_ca.string() + ", the authority of this crane", kCopyAnew);
+    const auto subject = openssl::subject_of(*certificate_);
+    // `crane keys make` writes CN=ROLE.VENDOR.NUMBER; a wrong vendor is reported below.
+    if (!subject.starts_with("CN=" + files_.role + "."))
+      say(files_.certificate, "subject " + subject + ": is the identity of another role than " + files_.role,
+          kCopyAnew);
     if ((openssl::first_hash_byte(*certificate_) < 0x80U) != (vendor_ == "cyclone"))
       say(files_.certificate,
-          "subject " + openssl::subject_of(*certificate_) +
-              ": its SHA-256 must begin below 0x80 for cyclone and not " +
+          "subject " + subject + ": its SHA-256 must begin below 0x80 for cyclone and not " +
               "below it for fastdds, because the two vendors shake hands in this order only",
           kMakeAnew);
   }
 
   void check_key() {
-    struct stat status {};
     constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
-    if (::stat(files_.key.c_str(), &status) == 0 && (status.st_mode & kOthers) != 0)
-      say(files_.key,
-          "mode " + octal(status.st_mode & 0777U) + ": other users must have no access to a private key",
+    if (const auto mode = mode_of(files_.key); (mode & kOthers) != 0)
+      say(files_.key, "mode " + octal(mode) + ": other users must have no access to a private key",
           "; chmod 600 " + files_.key.string());
     const auto key = openssl::key_from(contents_of(files_.key));
     if (!key)
@@ -114,6 +135,22 @@ class Checker {
     if (permissions.find("<subject_name>" + subject + "</subject_name>") == std::string::npos)
       say(files_.permissions, "does not name " + subject + ", the subject of " + files_.certificate.string(),
           kCopyAnew);
+    else
+      check_topics(permissions, subject);
+  }
+
+  /// Compares the permissions with those of the role, except for the validity.
+  void check_topics(const std::string& permissions, const std::string& subject) {
+    const auto* role = role_named(files_.role);
+    if (role == nullptr) return;
+    const auto without_validity = [](std::string text) {
+      std::erase(text, '\r');  // of the lines of S/MIME
+      const auto begin = text.find("<validity>"), end = text.find("</validity>");
+      if (begin < end && end != std::string::npos) text.erase(begin, end - begin);
+      return text;
+    };
+    if (without_validity(permissions) != without_validity(permissions_document(*role, subject, {})))
+      say(files_.permissions, "permits other topics than those of the role " + files_.role, kMakeAnew);
   }
 
   std::string signed_text(const fs::path& file) {

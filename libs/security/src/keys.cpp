@@ -78,7 +78,8 @@ Identity identity(const fs::path& directory, std::string_view role, std::string_
           .key = own / "key.pem",
           .permissions_ca = directory / "permissions_ca.pem",
           .governance = directory / "governance.smime",
-          .permissions = own / "permissions.smime"};
+          .permissions = own / "permissions.smime",
+          .role = std::string{role}};
 }
 
 Validity valid_for(int days) {

@@ -23,6 +23,7 @@ namespace crane::security {
 /// Files that a participant with this identity needs.
 struct Identity {
   std::filesystem::path identity_ca, certificate, key, permissions_ca, governance, permissions;
+  std::string role;  ///< that the files must belong to
 };
 /// Returns the paths only; reads no file.
 [[nodiscard]] Identity identity(const std::filesystem::path& directory, std::string_view role,
@@ -40,7 +41,8 @@ struct Validity {
 /// exists and is not an empty directory, or when a file cannot be written; make() then removes its files
 void make(const std::filesystem::path& directory, const Validity& validity);
 
-/// Reasons why the identity cannot be used now, each with file, value, rule and remedy.
+/// Reasons why the identity cannot be used now, each with file, value, rule and remedy. The files must belong
+/// to the role, and other users must not be able to change them or their directories.
 [[nodiscard]] std::vector<std::string> problems(const Identity& identity, std::string_view vendor);
 
 /// One line of `crane keys show`.
