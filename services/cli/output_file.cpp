@@ -10,12 +10,4 @@ void require_new(const std::filesystem::path& file, bool force) {
     throw configuration::ConfigurationError({file.string() + ": exists; choose another name or --force"});
 }
 
-void require_other(const std::filesystem::path& file, std::span<const std::filesystem::path> sources) {
-  std::error_code ignored;
-  for (const auto& source : sources)
-    if (std::filesystem::equivalent(source, file, ignored))
-      throw configuration::ConfigurationError(
-          {file.string() + ": is a file that the command reads; give another name"});
-}
-
 }  // namespace crane::cli

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
+
+#include "crane/files/complete_file.hpp"
 
 namespace crane::dashboard {
 namespace {
@@ -77,9 +78,12 @@ std::string Runs::keep(std::string_view name, std::string_view bytes) const {
   if (sum > kMostUploads_bytes || uploads.size() >= kMostUploads)
     return "the uploads take " + std::to_string(kMostUploads_bytes >> 20U) + " MB or " +
            std::to_string(kMostUploads) + " files: restart the dashboard, which deletes them";
-  std::ofstream out{uploads_ / name, std::ios::binary};
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return out.flush() ? "" : "the file cannot be written: is the disk full?";
+  try {
+    files::write_file(uploads_ / name, bytes);
+  } catch (const files::WriteError&) {  // its text has the path of the file, which a browser need not know
+    return "the file cannot be written: is the disk full?";
+  }
+  return "";
 }
 
 bool is_upload_name(std::string_view name) {

@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "crane/bridge/component.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/experiment/picture.hpp"
 #include "crane/experiment/variant.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "crane/simulator/component.hpp"
 #include "crane/twin/component.hpp"
@@ -18,6 +20,12 @@
 
 namespace crane::experiments {
 namespace {
+
+constexpr const char* kRigFile = "rig.toml";
+constexpr const char* kRecording = "recording.mcap";
+constexpr const char* kTable = "run.csv";
+constexpr const char* kMetrics = "metrics.json";
+constexpr const char* kPicture = "picture.svg";
 
 namespace fs = std::filesystem;
 
@@ -75,10 +83,14 @@ recording::Metadata origin_of(const ExperimentOptions& options, const Experiment
       {"sequence", "tick"}};
 }
 
-void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
-  std::ofstream out{file};
-  out << json.dump(2) << '\n';
-  if (!out.flush()) throw RunError(file.string() + ": cannot write");
+/// @throws configuration::ConfigurationError when a file of the run is one of its inputs
+void require_other_files(const ExperimentOptions& options) {
+  std::vector<fs::path> inputs{options.rig, options.scenario};
+  if (options.twin) inputs.push_back(*options.twin);
+  std::vector<fs::path> outputs;
+  for (const char* name : {kRigFile, kRecording, kTable, kMetrics, kPicture})
+    outputs.push_back(options.directory / name);
+  configuration::require_other(outputs, configuration::with_base_files(inputs));
 }
 
 }  // namespace
@@ -122,14 +134,15 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   const auto& controller = runtime::chosen_controller(options.controller, rig);
   const auto scenario = experiment::load_scenario(options.scenario, &rig);
   const auto started = experiment::changed_by(experiment::started_by(rig, scenario), options.variant);
+  require_other_files(options);
   fs::create_directories(options.directory);
-  const auto rig_file = options.directory / "rig.toml";
+  const auto rig_file = options.directory / kRigFile;
   write_started_rig(rig_file, started);
 
   std::optional<configuration::Rig> twin;
   if (options.twin) twin = configuration::load_rig(*options.twin);
 
-  TickLog log{options.directory / "recording.mcap"};
+  TickLog log{options.directory / kRecording};
   ExperimentResult result;
   result.scenario = scenario.name;
   result.controller = controller.name;
@@ -145,16 +158,16 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
       static_cast<double>(result.outcome.last_tick) * rig.period_s / result.outcome.wall_s;
 
   const auto table = log.table(result.outcome.hold_tick);
-  recording::write_csv(options.directory / "run.csv", table);
+  recording::write_csv(options.directory / kTable, table);
   const auto samples = experiment::samples_from(table);
   const auto maneuver = experiment::maneuver_of(scenario, started);
   if (!result.outcome.completed && (samples.empty() || samples.back().time_s < maneuver.last_action_s))
     throw RunError("the supervisor stopped the crane before its last move or kick: " +
                    result.outcome.stopped_because);
   result.metrics = experiment::evaluate(samples, maneuver);
-  write_json(options.directory / "metrics.json", to_json(result));
+  files::write_file(options.directory / kMetrics, to_json(result).dump(2) + "\n");
   if (options.picture)
-    experiment::draw_maneuver(options.directory / "picture.svg", {rig.name, result.controller, scenario.name},
+    experiment::draw_maneuver(options.directory / kPicture, {rig.name, result.controller, scenario.name},
                               samples, maneuver, result.metrics);
   return result;
 }

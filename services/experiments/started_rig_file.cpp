@@ -1,8 +1,6 @@
 #include "experiments/started_rig_file.hpp"
 
-#include <fstream>
-
-#include "experiments/lockstep_run.hpp"
+#include "crane/files/complete_file.hpp"
 
 namespace crane::experiments {
 
@@ -12,9 +10,7 @@ std::string started_rig_text(const configuration::Rig& started) {
 }
 
 void write_started_rig(const std::filesystem::path& file, const configuration::Rig& started) {
-  std::ofstream out{file};
-  out << started_rig_text(started);
-  if (!out.flush()) throw RunError(file.string() + ": cannot write");
+  files::write_file(file, started_rig_text(started));
 }
 
 }  // namespace crane::experiments

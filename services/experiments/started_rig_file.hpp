@@ -10,7 +10,7 @@ namespace crane::experiments {
 [[nodiscard]] std::string started_rig_text(const configuration::Rig& started);
 
 /// Writes every field of the rig: a process that reads the file runs the same rig, bit for bit, with every
-/// change by a scenario and by variants. @throws RunError when the file cannot be written
+/// change by a scenario and by variants. @throws files::WriteError
 void write_started_rig(const std::filesystem::path& file, const configuration::Rig& started);
 
 }  // namespace crane::experiments

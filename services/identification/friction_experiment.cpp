@@ -1,10 +1,13 @@
 #include "identification/friction_experiment.hpp"
 
+#include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/control/tracking_pd.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/identification/excitation_design.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "experiments/realtime_run.hpp"
@@ -19,17 +22,23 @@ namespace id = identification;
 using recording::shortest;
 
 constexpr const char* kController = "none";  // tracking PD without anti-swing
+constexpr const char* kUncompensated = "uncompensated.toml";
+constexpr const char* kIdentified = "identified.toml";
+constexpr const char* kResults = "friction.json";
+constexpr const char* kPicture = "friction.svg";
+// Parts of the experiment: each has a scenario file and a directory.
+constexpr const char* kMultiSine = "multi_sine";
+constexpr const char* kBreakAway = "break_away";
+constexpr const char* kSteps = "steps";
+constexpr const char* kStepsUncompensated = "steps_uncompensated";
+constexpr std::array kParts{kMultiSine, kBreakAway, kSteps, kStepsUncompensated};
 constexpr double kBegin_s = 0.5;
 constexpr double kRest_s = 2;  // pause after an excitation
 constexpr double kRamp_vps = 0.4;
 constexpr int kBreakAways = 4;
 constexpr double kStepSpacing_s = 6;
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out{file};
-  out << text;
-  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
-}
+std::string scenario_file(const std::string& part) { return part + ".toml"; }
 
 std::string array_of(const control::Excitation& excitation, double control::Sine::*field) {
   std::string text;
@@ -61,10 +70,11 @@ class Experiment {
     if (options.axis > plant::kSlew || !drive.present)
       throw configuration::ConfigurationError({rig_.path + ": " + plant::kCoordinates[options.axis].name +
                                                ": this rig has no such drive to identify"});
+    require_other_files();
     place();
     measure_loop();
     fs::create_directories(options.directory);
-    write_text(file("uncompensated.toml"), uncompensated());
+    files::write_file(file(kUncompensated), uncompensated());
   }
 
   FrictionExperimentResult run() {
@@ -74,16 +84,16 @@ class Experiment {
     const id::AxisRun multi_sine = run_multi_sine(result);
     result.estimates = estimate_both(multi_sine, options_.zero_band, options_.cutoff_ratio, gain_);
     result.stiction = run_break_away(result.estimates.midpoint);
-    result.fragment = file("identified.toml");
-    write_text(result.fragment,
-               friction_fragment(rig_.path, options_.axis, result.estimates.midpoint, result.stiction));
-    const Steps compensated = run_steps("steps", result.fragment, result);
-    const Steps uncompensated = run_steps("steps_uncompensated", file("uncompensated.toml"), result);
+    result.fragment = file(kIdentified);
+    files::write_file(result.fragment, friction_fragment(rig_.path, options_.axis, result.estimates.midpoint,
+                                                         result.stiction));
+    const Steps compensated = run_steps(kSteps, result.fragment, result);
+    const Steps uncompensated = run_steps(kStepsUncompensated, file(kUncompensated), result);
     result.compensated = id::deviation(compensated.measured, compensated.model);
     result.uncompensated = id::deviation(uncompensated.measured, uncompensated.model);
-    write_text(file("friction.json"), to_json(result).dump(2) + "\n");
+    files::write_file(file(kResults), to_json(result).dump(2) + "\n");
     if (options_.picture)
-      draw_friction(file("friction.svg"), result,
+      draw_friction(file(kPicture), result,
                     {.run = &multi_sine,
                      .cutoff_ratio = options_.cutoff_ratio,
                      .period_s = rig_.period_s,
@@ -99,6 +109,17 @@ class Experiment {
   };
 
   [[nodiscard]] fs::path file(const std::string& name) const { return options_.directory / name; }
+
+  /// The new rig file extends the rig file: it must not replace it. The runs of the parts check their files.
+  void require_other_files() const {
+    std::vector<fs::path> outputs;
+    for (const char* name : {kUncompensated, kIdentified, kResults, kPicture}) outputs.push_back(file(name));
+    for (const char* part : kParts) {
+      outputs.push_back(file(scenario_file(part)));
+      outputs.push_back(file(part) / "run.csv");
+    }
+    configuration::require_other(outputs, configuration::with_base_files({options_.rig}));
+  }
 
   /// Places the axis in the middle of its travel; for the slew axis, also the trolley near the tower
   /// (section 4.4.2).
@@ -141,8 +162,8 @@ class Experiment {
   }
 
   [[nodiscard]] std::string uncompensated() const {
-    std::string text = "# " + rig_.name + " without friction compensation\nextends = \"" +
-                       fs::absolute(rig_.path).string() + "\"\n";
+    std::string text = "# " + rig_.name + " without friction compensation\nextends = " +
+                       configuration::toml_string(fs::absolute(rig_.path).string()) + "\n";
     for (std::size_t i = 0; i < plant::kAxes; ++i)
       if (rig_.drives[i].present && rig_.design.friction[i].factor > 0)
         text += std::string{"\n[controller.friction."} + plant::kCoordinates[i].name + "]\nfactor = 0.0\n";
@@ -160,10 +181,10 @@ class Experiment {
 
   /// Runs one part of the experiment. @return its table
   recording::Table run_part(const std::string& name, const fs::path& rig, const std::string& scenario) {
-    write_text(file(name + ".toml"), scenario);
+    files::write_file(file(scenario_file(name)), scenario);
     if (options_.realtime) return run_part_in_realtime(name, rig);
     experiments::ExperimentOptions run;
-    run.scenario = file(name + ".toml");
+    run.scenario = file(scenario_file(name));
     run.rig = rig;
     run.controller = kController;
     run.directory = file(name);
@@ -180,7 +201,7 @@ class Experiment {
   }
 
   recording::Table run_part_in_realtime(const std::string& name, const fs::path& rig) {
-    const auto scenario = experiment::load_scenario(file(name + ".toml"), &rig_);
+    const auto scenario = experiment::load_scenario(file(scenario_file(name)), &rig_);
     const auto table = realtime_runs_.run(rig, kController, scenario);
     fs::create_directories(file(name));
     recording::write_csv(file(name) / "run.csv", table);
@@ -193,7 +214,7 @@ class Experiment {
     const auto excitation = id::multi_sine(options_.axis, amplitude, limits_, options_.duration_s);
     result.amplitude_share = excitation.sines[0].amplitude / (-0.4 * amplitude);
     const auto table =
-        run_part("multi_sine", file("uncompensated.toml"),
+        run_part(kMultiSine, file(kUncompensated),
                  scenario_text("sum of sines for the friction of one axis", options_.duration_s + kRest_s) +
                      excitation_text(kBegin_s, excitation));
     gain_ = loop_.gain = acting_gain(rig_.design, options_.axis, mean_trolley_position(table));
@@ -210,7 +231,7 @@ class Experiment {
     const auto excitation =
         id::break_away_sine(options_.axis, limits_, loop_.stiffness_vpu, kRamp_vps, friction_v, kBreakAways);
     const auto table =
-        run_part("break_away", file("uncompensated.toml"),
+        run_part(kBreakAway, file(kUncompensated),
                  scenario_text("slow voltage ramps until the axis moves", excitation.duration_s + kRest_s) +
                      excitation_text(kBegin_s, excitation));
     const auto run = axis_run_from(table, rig_, options_.axis, kBegin_s, kBegin_s + excitation.duration_s);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "crane/configuration/extended_file.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "identification/axis_data.hpp"
 #include "identification/friction_experiment.hpp"
@@ -76,8 +77,8 @@ std::string friction_fragment(const std::filesystem::path& rig, std::size_t axis
                 "spread " + shortest(std::round(s.spread_v * 1e5) / 1e5) + " of " + std::to_string(s.count));
   };
   return "# Friction of the " + std::string{plant::kCoordinates[axis].name} +
-         ", identified values for the compensation. After +-: one standard error.\nextends = \"" +
-         std::filesystem::absolute(rig).string() + "\"\n\n[controller.friction." +
+         ", identified values for the compensation. After +-: one standard error.\nextends = " +
+         configuration::toml_string(std::filesystem::absolute(rig).string()) + "\n\n[controller.friction." +
          plant::kCoordinates[axis].name + "]\n" +
          estimate("viscous_positive_" + per_speed, friction.viscous_positive) +
          estimate("viscous_negative_" + per_speed, friction.viscous_negative) +

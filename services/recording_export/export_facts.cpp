@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "crane/recording/complete_file.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/recording/run_table.hpp"
 
 namespace crane::recording_export {
@@ -33,7 +33,7 @@ std::optional<std::string> common_unit(const recording::Column& column) {
 
 void write_completely(const std::filesystem::path& file, const recording::McapReader& recording,
                       const std::function<void(const std::string& partial)>& write) {
-  recording::CompleteFile out{file, recording.files()};
+  files::CompleteFile out{file, recording.files()};
   try {
     write(out.partial().string());
   } catch (const recording::DecodeError&) {

@@ -17,9 +17,9 @@ namespace crane::recording_export {
 /// @return unit of all elements of the column; "": dimensionless; nothing: the elements have different units
 [[nodiscard]] std::optional<std::string> common_unit(const recording::Column& column);
 
-/// Calls `write` with the name FILE.partial and renames the result to FILE. When `write` throws, no file
-/// remains. @throws std::runtime_error that names FILE, also as CompleteFile; DecodeError, SchemaError of the
-/// recording unchanged
+/// Calls `write` with the name of a new file beside FILE and renames the result to FILE. When `write` throws,
+/// no file remains. @throws std::runtime_error that names FILE, also as CompleteFile; DecodeError,
+/// SchemaError of the recording unchanged
 void write_completely(const std::filesystem::path& file, const recording::McapReader& recording,
                       const std::function<void(const std::string& partial)>& write);
 

@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "crane/files/complete_file.hpp"
 #include "crane/runtime/process.hpp"
 
 namespace crane::replay {
@@ -22,9 +22,7 @@ std::filesystem::path new_directory() {
 
 std::string rig_file(const std::filesystem::path& directory, const std::string& text) {
   const auto file = directory / "rig.toml";
-  std::ofstream out{file, std::ios::binary};
-  out << text;
-  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+  files::write_file(file, text);
   return file.string();
 }
 

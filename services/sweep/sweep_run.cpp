@@ -3,18 +3,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
+#include "crane/files/complete_file.hpp"
 #include "crane/workers/process_pool.hpp"
 
 namespace crane::sweep {
 namespace {
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out{file, std::ios::binary};
-  out << text;
-  if (!out.flush()) throw LogError(file.string() + ": cannot be written");
-}
 
 /// Executes the remaining runs of a sweep. The process of a run sends its result; the parent logs a failure
 /// for a process that ended without a result.
@@ -78,11 +72,11 @@ std::string to_string(const Progress& progress) {
 
 std::vector<Group> run_sweep(const Sweep& sweep, const RunOptions& options) {
   std::filesystem::create_directories(options.directory);
-  Log log{options.directory / "sweep.jsonl", sweep};
+  Log log{options.directory / kLogFile, sweep};
   Crew{sweep, options, log}.work();
   if (log.results().size() < sweep.size()) return {};
   auto groups = groups_of(sweep, log.results());
-  write_text(options.directory / kRunsFile, csv_of(sweep, log.results()));
+  files::write_file(options.directory / kRunsFile, csv_of(sweep, log.results()));
   report::write_html(options.directory / kPageFile, page_of(sweep, groups));
   return groups;
 }

@@ -11,6 +11,7 @@
 
 namespace crane::sweep {
 
+inline constexpr const char* kLogFile = "sweep.jsonl";
 inline constexpr const char* kRunsFile = "runs.csv";
 inline constexpr const char* kPageFile = "sweep.html";
 
@@ -30,7 +31,7 @@ struct RunOptions {
 };
 
 /// @return groups of all runs; empty when cancelled, the log then contains the finished runs
-/// @throws LogError, report::WriteError
+/// @throws LogError, files::WriteError
 [[nodiscard]] std::vector<Group> run_sweep(const Sweep& sweep, const RunOptions& options);
 
 }  // namespace crane::sweep

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "experiments/started_rig_file.hpp"
+#include "tuning/tune.hpp"
 
 namespace crane::tuning {
 
@@ -11,7 +12,7 @@ RealtimeCrane::RealtimeCrane(RealtimeOptions options)
       runs_{{.plant = options.plant, .bus = std::move(options.bus), .vendors = std::move(options.vendors)}} {}
 
 Motion RealtimeCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {
-  const auto file = directory_ / "motion_rig.toml";
+  const auto file = directory_ / kMotionRigFile;
   experiments::write_started_rig(file, rig);
   return {runs_.run(file, "none", scenario), ""};
 }

@@ -1,9 +1,11 @@
 #include "tuning/tune.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/identification/friction.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/report/page.hpp"
@@ -24,12 +26,6 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out{file};
-  out << text;
-  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
-}
-
 /// Appends the rows of a motion; their time continues the time of `all`.
 void append(recording::Table& all, const recording::Table& motion) {
   if (all.columns.empty()) {
@@ -46,14 +42,24 @@ void append(recording::Table& all, const recording::Table& motion) {
   }
 }
 
+/// @throws configuration::ConfigurationError when a file of the tuning is one of its inputs
+void require_other_files(const configuration::Rig& rig, const TuneOptions& options) {
+  auto inputs = options.inputs;
+  if (fs::exists(rig.path)) inputs.emplace_back(rig.path);  // a rig can also be made without a file
+  std::vector<fs::path> outputs;
+  for (const char* name : {kMotionFile, kJsonFile, kRigFile, kPageFile, kMotionRigFile})
+    outputs.push_back(options.directory / name);
+  configuration::require_other(outputs, configuration::with_base_files(inputs));
+}
+
 class Tuner {
  public:
   Tuner(const configuration::Rig& rig, CraneAccess& crane, const TuneOptions& options)
       : rig_{rig}, crane_{crane}, options_{options}, careful_{careful_rig(rig, options.priors)} {
     if (auto found = problems(rig); !found.empty()) throw configuration::ConfigurationError(std::move(found));
     result_.seed = options.seed;
+    require_other_files(rig, options);
     fs::create_directories(options.directory);
-    for (const char* name : {kMotionFile, kJsonFile, kRigFile, kPageFile}) fs::remove(file(name));
   }
 
   TuneResult run() {
@@ -68,9 +74,9 @@ class Tuner {
     } catch (const experiments::SessionError& error) {
       refuse({error.what()});
     }
-    write_text(file(kRigFile), rig_text(result_));
-    write_text(file(kJsonFile), to_json(result_, rig_).dump(2) + "\n");
+    files::write_file(file(kJsonFile), to_json(result_, rig_).dump(2) + "\n");
     report::write_html(file(kPageFile), page_of(result_, rig_, all_));
+    files::write_file(file(kRigFile), rig_text(result_));  // last: the other files describe it
     return std::move(result_);
   }
 
@@ -189,11 +195,14 @@ class Tuner {
       json.update(to_json(result_, rig_));
     else
       json["motion_s"] = result_.motion_s;
-    write_text(file(kJsonFile), json.dump(2) + "\n");
-    std::string kept;
-    for (const char* name : {kMotionFile, kJsonFile})
-      if (fs::exists(file(name))) kept += (kept.empty() ? "" : ", ") + file(name).string();
-    throw TuningRefused(joined(reasons) + "\nwritten: " + kept);
+    files::write_file(file(kJsonFile), json.dump(2) + "\n");
+    std::string text = joined(reasons) + "\nwritten: ";
+    if (!all_.columns.empty()) text += file(kMotionFile).string() + ", ";
+    text += file(kJsonFile).string();
+    std::string earlier;
+    for (const char* name : {kRigFile, kPageFile})
+      if (fs::exists(file(name))) earlier += (earlier.empty() ? "" : ", ") + file(name).string();
+    throw TuningRefused(text + (earlier.empty() ? "" : "\nunchanged, of an earlier tuning: " + earlier));
   }
 
   const configuration::Rig& rig_;

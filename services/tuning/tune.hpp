@@ -4,10 +4,11 @@
 ///   2. motion     main motion of each axis
 ///   3. identify   cable length, rest angles, load mass; gain, friction and delay of each drive
 ///   4. recommend  law and gains, by simulated maneuvers on the identified rig
-/// Files in the directory, each written as soon as its content is known:
-///   motion.csv   all motions one after the other, canonical columns
+/// Files in the directory:
+///   motion.csv   all motions one after the other, canonical columns; written after each motion
 ///   tune.json    estimates, ranking, recommendation; with "refused" when the tuning ends early
-///   tuned.toml   the rig file    tune.html   the report
+///   tuned.toml   the rig file    tune.html   the report; a tuning that ends early leaves those of an earlier
+///                tuning unchanged
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -25,6 +26,7 @@ namespace crane::tuning {
 inline constexpr const char* kMotionFile = "motion.csv";
 inline constexpr const char* kJsonFile = "tune.json";
 inline constexpr const char* kRigFile = "tuned.toml";
+inline constexpr const char* kMotionRigFile = "motion_rig.toml";  ///< of RealtimeCrane
 inline constexpr const char* kPageFile = "tune.html";
 
 /// The tuning ends without a result. what() names the reasons and the files written so far.
@@ -34,7 +36,8 @@ class TuningRefused : public std::runtime_error {
 };
 
 struct TuneOptions {
-  std::filesystem::path directory;  ///< created when missing
+  std::filesystem::path directory;              ///< created when missing
+  std::vector<std::filesystem::path> inputs{};  ///< files that must not be replaced, besides the rig file
   Priors priors{};
   std::vector<std::filesystem::path> maneuvers{};            ///< scenario files
   std::vector<Candidate> candidates = tuning::candidates();  ///< compared laws and gains

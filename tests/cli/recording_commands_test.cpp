@@ -37,6 +37,14 @@ class RecordingCommands : public testing::Test {
   }
   [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
 
+  /// Names of all files of the directory.
+  [[nodiscard]] std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator{path("")})
+      names.push_back(entry.path().filename());
+    return names;
+  }
+
   recording::TemporaryDirectory directory_;
   std::string run_ = path("run.mcap"), ticks_;
 };
@@ -132,7 +140,7 @@ TEST_F(RecordingCommands, LeaveNoPartOfAnExportThatFails) {
     const auto unknown = crane({"log", "export", format, run_, "--topic", "nothing", "--out", path("a.out")});
     EXPECT_EQ(unknown.exit_code, 1);
     EXPECT_THAT(unknown.errors, HasSubstr("the recording has no topic 'nothing'; it has crane/state"));
-    EXPECT_FALSE(std::filesystem::exists(path("a.out.partial")));
+    EXPECT_EQ(files(), std::vector<std::string>{"run.mcap"});
   }
 }
 
@@ -145,6 +153,8 @@ TEST_F(RecordingCommands, NeverOverwriteTheirRecording) {
                                            {"log", "export", "hdf5", run_, "--force"},
                                            {"log", "export", "matlab", run_, "--force"},
                                            {"replay", run_, "--swap", "controller=delayed_1", "--force"},
+                                           {"scope", "--trigger", "state.header.tick > 10", "--file", run_},
+                                           {"zone", "learn", "silo", run_, "--top", "1", "--force"},
                                            {"review", run_}}) {
     if (command[1] != "cut") command.emplace_back("--out");
     command.push_back(run_);
@@ -154,6 +164,16 @@ TEST_F(RecordingCommands, NeverOverwriteTheirRecording) {
     EXPECT_THAT(refused.errors, HasSubstr("is a file that the command reads"));
     EXPECT_EQ(contents_of(run_), before);
   }
+}
+
+/// An earlier version wrote to FILE.partial.
+TEST_F(RecordingCommands, LeaveFilesBesideTheirResultUnchanged) {
+  const auto before = contents_of(run_);
+  std::filesystem::rename(run_, path("a.mcap.partial"));
+  const auto repaired = crane({"log", "repair", path("a.mcap.partial"), "--out", path("a.mcap")});
+  EXPECT_EQ(repaired.exit_code, 0) << repaired.errors;
+  EXPECT_EQ(contents_of(path("a.mcap.partial")), before);
+  EXPECT_THAT(files(), testing::UnorderedElementsAre("a.mcap", "a.mcap.partial"));
 }
 
 TEST_F(RecordingCommands, FailWhenStandardOutputCannotBeWritten) {
@@ -183,7 +203,7 @@ TEST_F(RecordingCommands, AnExportToAFullDiskFailsWithItsReasonAndACleanExit) {
               "full.out: cannot write: File too large");
   EXPECT_EXIT(write_and_exit(recording_export::write_matlab), testing::ExitedWithCode(3),
               "full.out: cannot write: .*(File too large|free space)");
-  EXPECT_FALSE(std::filesystem::exists(path("full.out.partial")));
+  EXPECT_EQ(files(), std::vector<std::string>{"run.mcap"});
 }
 
 TEST_F(RecordingCommands, ReplayNamesTheDifferenceWithExitCode1) {

@@ -89,6 +89,20 @@ TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
   EXPECT_THROW((void)identify_friction(options), configuration::ConfigurationError);
 }
 
+/// The default directory of a second experiment is that of the first one.
+TEST(FrictionExperiment, NeverReplacesItsRigFile) {
+  const recording::TemporaryDirectory directory;
+  const auto text = "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"\n";
+  for (const char* name : {"identified.toml", "uncompensated.toml", "steps.toml"}) {
+    FrictionExperimentOptions options;
+    options.rig = directory / name;
+    options.directory = directory / "";
+    recording::put_contents(options.rig, text);
+    EXPECT_THROW((void)identify_friction(options), configuration::ConfigurationError);
+    EXPECT_EQ(recording::contents_of(options.rig), text);
+  }
+}
+
 TEST(FrictionExperiment, GivesNoResultWithoutFriction) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;

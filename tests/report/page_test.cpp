@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "crane/files/complete_file.hpp"
 #include "plots_of.hpp"
 
 namespace crane::report {
@@ -88,7 +89,7 @@ TEST(Page, NamesTheFileThatCannotBeWritten) {
   try {
     write_html("/nowhere/page.html", full_of("text"));
     FAIL();
-  } catch (const WriteError& error) {
+  } catch (const files::WriteError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/nowhere/page.html"));
   }
 }

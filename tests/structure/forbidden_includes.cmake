@@ -1,5 +1,5 @@
-# Fails when a source in DIRECTORIES (relative to SOURCE_DIRECTORY, separated by commas) has an include that matches FORBIDDEN,
-# unless the path of the source matches EXCEPT. Also fails when there are fewer sources than LEAST, because a directory has moved.
+# Fails when a source in DIRECTORIES (relative to SOURCE_DIRECTORY, separated by commas) has an include that matches FORBIDDEN, or a
+# line that matches FORBIDDEN_LINE, unless the path of the source matches EXCEPT. Also fails when there are fewer sources than LEAST, because a directory has moved.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "," ";" directories "${DIRECTORIES}")
 set(sources "")
@@ -16,11 +16,15 @@ foreach(source IN LISTS sources)
   if(EXCEPT AND source MATCHES "${EXCEPT}")
     continue()
   endif()
-  file(STRINGS ${source} lines REGEX "#include [<\"](${FORBIDDEN})")
+  if(FORBIDDEN_LINE)
+    file(STRINGS ${source} lines REGEX "${FORBIDDEN_LINE}")
+  else()
+    file(STRINGS ${source} lines REGEX "#include [<\"](${FORBIDDEN})")
+  endif()
   foreach(line IN LISTS lines)
     string(APPEND problems "${source}: ${line}\n")
   endforeach()
 endforeach()
 if(problems)
-  message(FATAL_ERROR "includes what it must not:\n${problems}")
+  message(FATAL_ERROR "contains what it must not:\n${problems}")
 endif()

@@ -15,6 +15,7 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/workers/process_pool.hpp"
+#include "experiments/lockstep_run.hpp"
 #include "hidden_rig.hpp"
 #include "stack/data_files.hpp"
 #include "tuning/lockstep_crane.hpp"
@@ -134,6 +135,50 @@ Entry best_entry(const HiddenRig& hidden) {
                                .processors = options.processors,
                                .integrator = simulator::Method::cvode});
   return best.entries.at(best.winner.value());
+}
+
+/// A crane that stops in the first motion.
+class StoppingCrane final : public CraneAccess {
+ public:
+  [[nodiscard]] Motion execute(const configuration::Rig& /*rig*/,
+                               const experiment::Scenario& /*scenario*/) override {
+    throw experiments::RunError("no crane");
+  }
+};
+
+TEST(TuneFiles, OfAnEarlierTuningStayWhenANewOneFails) {
+  const recording::TemporaryDirectory directory;
+  std::filesystem::create_directories(directory / "out");
+  for (const char* name : {kRigFile, kPageFile})
+    recording::put_contents(directory / "out" / name, "of an earlier tuning");
+  StoppingCrane crane;
+  try {
+    (void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane,
+               options_for(directory / "out"));
+    FAIL() << "accepted";
+  } catch (const TuningRefused& refused) {
+    EXPECT_NE(std::string{refused.what()}.find("unchanged, of an earlier tuning: " +
+                                               (directory / "out" / kRigFile).string()),
+              std::string::npos)
+        << refused.what();
+  }
+  for (const char* name : {kRigFile, kPageFile})
+    EXPECT_EQ(recording::contents_of(directory / "out" / name), "of an earlier tuning");
+  EXPECT_TRUE(std::filesystem::exists(directory / "out" / kJsonFile));
+}
+
+TEST(TuneFiles, NeverReplaceTheRigFileOrTheHiddenRig) {
+  const recording::TemporaryDirectory directory;
+  const auto file = directory / kRigFile;
+  const auto text = "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"\n";
+  recording::put_contents(file, text);
+  StoppingCrane crane;
+  auto options = options_for(directory / "");
+  EXPECT_THROW((void)tune(configuration::load_rig(file), crane, options), configuration::ConfigurationError);
+  options.inputs = {file};
+  EXPECT_THROW((void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane, options),
+               configuration::ConfigurationError);
+  EXPECT_EQ(recording::contents_of(file), text);
 }
 
 TEST(HiddenRigs, AGantryIsTunedAndSettlesAsPredicted) {

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "crane/bring_up/calibration.hpp"
+#include "crane/configuration/extended_file.hpp"
 #include "crane/plant/coordinates.hpp"
 
 namespace crane::bring_up {
@@ -22,8 +23,9 @@ std::string exact(double value) {
 std::string text_of(const configuration::Rig& rig, const Calibration& calibration) {
   std::ostringstream out;
   out << "# Calibration of " << rig.name << ", written by crane hw calibrate.\n"
-      << "extends = \"" << fs::absolute(rig.path).lexically_normal().string() << "\"\n"
-      << "name = \"" << rig.name << "\"\n";
+      << "extends = " << configuration::toml_string(fs::absolute(rig.path).lexically_normal().string())
+      << '\n'
+      << "name = " << configuration::toml_string(rig.name) << '\n';
   for (std::size_t i = 0; i < kDrives; ++i)
     if (rig.drives[i].present)
       out << "\n[drive." << coordinate_name(i) << "]\nsign = " << calibration.drive_sign[i]

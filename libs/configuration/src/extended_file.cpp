@@ -17,12 +17,13 @@ namespace {
       {document.place("extends") + "extends = \"" + fields::printable(extended, kShown) + "\": " + rule});
 }
 
+/// @param chain  files that extend `file`; afterwards also `file` and its bases
 TomlTable with_base_outside(const std::string& text, const std::filesystem::path& file,
-                            std::vector<std::filesystem::path> chain) {
+                            std::vector<std::filesystem::path>& chain) {
   TomlTable document(text, file.string());
   const std::string extended = document.text("extends", "");
-  if (extended.empty()) return document;
   chain.push_back(file.lexically_normal());
+  if (extended.empty()) return document;
   const auto base = (file.parent_path() / extended).lexically_normal();
   if (std::find(chain.begin(), chain.end(), base) != chain.end())
     refuse(document, extended, "must not lead back to this file");
@@ -49,7 +50,18 @@ std::string file_text(const std::filesystem::path& file) {
 }
 
 TomlTable with_base(const std::string& text, const std::filesystem::path& file) {
-  return with_base_outside(text, file, {});
+  std::vector<std::filesystem::path> chain;
+  return with_base_outside(text, file, chain);
+}
+
+std::vector<std::filesystem::path> with_base_files(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::path> all;
+  for (const auto& file : files) {
+    std::vector<std::filesystem::path> chain;
+    (void)with_base_outside(file_text(file), file, chain);
+    all.insert(all.end(), chain.begin(), chain.end());
+  }
+  return all;
 }
 
 }  // namespace crane::configuration

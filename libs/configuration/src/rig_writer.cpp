@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "crane/configuration/extended_file.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
@@ -14,11 +15,7 @@ std::string toml_of(double value) {
 }
 std::string toml_of(int value) { return std::to_string(value); }
 std::string toml_of(bool value) { return value ? "true" : "false"; }
-std::string toml_of(const std::string& value) {
-  std::ostringstream quoted;
-  quoted << toml::value<std::string>{value};
-  return quoted.str();
-}
+std::string toml_of(const std::string& value) { return toml_string(value); }
 
 /// Writes one field.
 template <class Section>
@@ -91,6 +88,12 @@ std::string zones_text(const std::vector<control::Zone>& zones) {
 }
 
 }  // namespace
+
+std::string toml_string(const std::string& value) {
+  std::ostringstream quoted;
+  quoted << toml::value<std::string>{value};
+  return quoted.str();
+}
 
 std::string to_toml(const control::Zone& zone) {
   const bool box = zone.shape == control::ZoneShape::box;

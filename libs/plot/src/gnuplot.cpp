@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "crane/files/complete_file.hpp"
 #include "crane/recording/csv.hpp"
 
 namespace crane::plot {
@@ -82,17 +83,14 @@ void run_gnuplot(const std::string& script) {
 }  // namespace
 
 void draw_script(const std::filesystem::path& file, double width, double height, const std::string& script) {
-  const std::filesystem::path partial = file.string() + ".partial";
-  std::error_code failure;
   try {
-    run_gnuplot(terminal(file, width, height) + "set output " + quoted(partial.string()) + "\n" + script +
-                "unset output\n");
-  } catch (const PictureError&) {
-    std::filesystem::remove(partial, failure);
-    throw;
+    files::CompleteFile complete{file};
+    run_gnuplot(terminal(file, width, height) + "set output " + quoted(complete.partial().string()) + "\n" +
+                script + "unset output\n");
+    complete.publish();
+  } catch (const files::WriteError& error) {
+    throw PictureError(error.what());
   }
-  std::filesystem::rename(partial, file, failure);
-  if (failure) throw PictureError(file.string() + ": cannot write: " + failure.message());
 }
 
 }  // namespace crane::plot

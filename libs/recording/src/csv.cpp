@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "crane/fields/printable.hpp"
+#include "crane/files/complete_file.hpp"
 #include "date.hpp"
 
 namespace crane::recording {
@@ -171,11 +172,7 @@ void write_csv(std::ostream& out, const Table& table) {
 
 void write_csv(const std::filesystem::path& file, const Table& table) {
   require_writable(table);
-  errno = 0;
-  std::ofstream out{file, std::ios::binary};
-  if (out) write_csv(out, table);
-  out.close();
-  if (!out) throw CsvError(file.string() + ": cannot write: " + std::generic_category().message(errno));
+  files::write_file(file, [&table](std::ostream& out) { write_csv(out, table); });
 }
 
 Table parse_csv(std::string_view text, const std::string& file, const std::vector<std::string>& wanted) {

@@ -4,7 +4,7 @@
 #include <map>
 #include <span>
 
-#include "crane/recording/complete_file.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/recording/mcap_reader.hpp"
 
 namespace crane::recording {
@@ -14,7 +14,7 @@ namespace crane::recording {
 
 class RecordingCopy {
  public:
-  /// Writes FILE.partial. @throws WriteError, also as CompleteFile
+  /// Writes a file beside FILE. @throws WriteError, also as CompleteFile
   RecordingCopy(const std::filesystem::path& file, std::span<const std::filesystem::path> sources);
   using ChannelIds = std::map<std::uint16_t, std::uint16_t>;  ///< of a source -> of the copy
   /// Adds the schemas and channels of a source; those that the copy already has are added once.
@@ -24,11 +24,11 @@ class RecordingCopy {
   void add_metadata(const std::string& name, const Metadata& entries);
   void add(const Message& message, const ChannelIds& channels);
 
-  /// Renames FILE.partial to FILE. @return number of messages. @throws WriteError
+  /// Renames this file to FILE. @return number of messages. @throws WriteError
   std::uint64_t finish();
 
  private:
-  CompleteFile file_;
+  files::CompleteFile file_;
   McapWriter writer_;
   std::map<std::uint16_t, SchemaRecord> schemas_;    ///< of the copy, by id
   std::map<std::uint16_t, ChannelRecord> channels_;  ///< of the copy, by id

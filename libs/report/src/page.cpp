@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include "assets.hpp"
+#include "crane/files/complete_file.hpp"
 #include "plot_data.hpp"
 
 namespace crane::report {
@@ -143,10 +143,7 @@ std::string to_html(const Page& page) {
 }
 
 void write_html(const std::filesystem::path& file, const Page& page) {
-  const std::string html = to_html(page);
-  std::ofstream out{file, std::ios::binary};
-  out << html;
-  if (!out.flush()) throw WriteError(file.string() + ": cannot write");
+  files::write_file(file, to_html(page));
 }
 
 }  // namespace crane::report

@@ -8,6 +8,8 @@
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/gain_curves.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/configuration/rig.hpp"
 #include "crane/plot/curves.hpp"
 #include "crane/recording/csv.hpp"
@@ -128,6 +130,9 @@ int analyse_gains(const GainsOptions& options) {
   for (const auto& figure : figures_of(options)) {
     if (!options.out.empty()) {
       const auto file = std::filesystem::path{options.out} / figure.file;
+      if (!options.rig.empty())
+        configuration::require_other({file.string() + ".csv", file.string() + ".svg"},
+                                     configuration::with_base_files({stack::find_rig(options.rig)}));
       recording::write_csv(file.string() + ".csv", table_of(figure));
       draw(file.string() + ".svg", figure);
     }

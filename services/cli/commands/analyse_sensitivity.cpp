@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -13,6 +12,9 @@
 #include "cli/sensitivity.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/damping.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/plant/pendulum.hpp"
 #include "crane/runtime/process.hpp"
 #include "stack/data_files.hpp"
@@ -21,6 +23,10 @@ namespace crane::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kRunsFile = "sensitivity.csv";
+constexpr const char* kFilterFile = "swing_filter.csv";
+constexpr const char* kSensitivityText = "sensitivity.md";
 
 struct SensitivityOptions {
   std::vector<std::string> scenarios{"maneuver_1"};
@@ -90,14 +96,6 @@ void write_filter_csv(std::ostream& out, const std::vector<FilteredLoop>& loops)
         << '\n';
 }
 
-/// Writes a file with `write`. @throws std::runtime_error on failure
-template <class Write>
-void write_file(const fs::path& file, Write write) {
-  std::ofstream out{file};
-  write(out);
-  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot write");
-}
-
 struct SensitivityPlan {
   std::vector<PerturbedRun> runs;  ///< without results
   std::vector<experiments::PlannedRun> plans;
@@ -146,18 +144,22 @@ int analyse_sensitivity(const SensitivityOptions& options) {
   spdlog::set_level(spdlog::level::off);  // the table contains the cause of a stop
   const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   auto plan = plan_of(options, rig);
-  require_directory(options.out);
+  const fs::path out = options.out;
+  std::vector<fs::path> inputs{rig.path};
+  for (const auto& name : options.scenarios) inputs.push_back(stack::find_scenario(name));
+  configuration::require_other({out / kRunsFile, out / kFilterFile, out / kSensitivityText},
+                               configuration::with_base_files(inputs));
+  require_directory(out);
   run_all(plan);
   const auto loops = filtered_loops(rig);
-  const fs::path out = options.out;
   const auto markdown = [&](std::ostream& text) {
     text << "# Sensitivity of " << rig.name << "\n\n";
     write_sensitivity_markdown(text, plan.runs);
     write_filter_markdown(text, loops);
   };
-  write_file(out / "sensitivity.csv", [&](std::ostream& text) { write_sensitivity_csv(text, plan.runs); });
-  write_file(out / "swing_filter.csv", [&](std::ostream& text) { write_filter_csv(text, loops); });
-  write_file(out / "sensitivity.md", markdown);
+  files::write_file(out / kRunsFile, [&](std::ostream& text) { write_sensitivity_csv(text, plan.runs); });
+  files::write_file(out / kFilterFile, [&](std::ostream& text) { write_filter_csv(text, loops); });
+  files::write_file(out / kSensitivityText, markdown);
   if (options.json)
     std::cout << runs_json(plan.runs).dump(2) << '\n';
   else

@@ -12,6 +12,7 @@
 #include "cli/plant_option.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
 #include "crane/runtime/convert.hpp"
@@ -104,6 +105,11 @@ int demo(DemoOptions options) {
   std::vector<experiment::Scenario> scenarios;
   for (const auto* name : stack::kManeuvers)
     scenarios.push_back(experiment::load_scenario(stack::find_scenario(name), &rig));
+  std::vector<fs::path> outputs;
+  for (const auto& scenario : scenarios)
+    for (const char* extension : {".mcap", ".csv", ".svg"})
+      outputs.push_back(fs::path{options.out} / (scenario.name + extension));
+  configuration::require_other(outputs, configuration::with_base_files({options.launch.rig}));
   fs::create_directories(options.out);
 
   const auto plant = options.plant;

@@ -12,6 +12,8 @@
 #include "cli/commands/commands.hpp"
 #include "cli/diagnosis_data.hpp"
 #include "cli/text_table.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/diagnosis/report.hpp"
 #include "stack/data_files.hpp"
 
@@ -139,10 +141,22 @@ int check_data(const DiagnoseOptions& options, const configuration::Rig& rig, Di
   return runtime::kExitDone;
 }
 
+/// @throws configuration::ConfigurationError when a file of the report is one of the inputs
+void require_other_files(const DiagnoseOptions& options, const configuration::Rig& rig) {
+  auto inputs = configuration::with_base_files({rig.path});
+  for (const auto* files : {&options.train, &options.test})
+    inputs.insert(inputs.end(), files->begin(), files->end());
+  if (!options.mapping.empty()) inputs.emplace_back(options.mapping);
+  std::vector<fs::path> outputs;
+  for (const char* name : diagnosis::kReportFiles) outputs.push_back(fs::path{options.out} / name);
+  configuration::require_other(outputs, inputs);
+}
+
 int diagnose_data(const DiagnoseOptions& options) {
   if (options.test.empty() && !options.check)
     throw diagnosis::DataError({"--test: held-out runs are required, except with --check"});
   const auto rig = configuration::load_rig(stack::find_rig(options.rig));
+  if (!options.check) require_other_files(options, rig);
   diagnosis::Mapping mapping;
   if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
   if (options.from_s) mapping.whole.from_s = *options.from_s;

@@ -16,6 +16,9 @@
 #include "crane/bring_up/calibration.hpp"
 #include "crane/bring_up/jog.hpp"
 #include "crane/bring_up/selftest.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/plant/coordinates.hpp"
 
 namespace crane::cli {
@@ -106,18 +109,15 @@ void require_writable(const std::filesystem::path& file) {
         {file.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --out"});
 }
 
-void write_file(const std::string& file, const std::string& text) {
-  std::ofstream out{file, std::ios::binary};
-  out << text;
-  if (!out.flush()) throw std::runtime_error(file + ": cannot write");
-}
-
 int calibrate(const HwMoveOptions& options) {
   runtime::install_stop_signals();
   std::ifstream answers;
   if (!options.answers.empty()) answers.open(options.answers);
   OpenBoard opened{options.board};
   bring_up::require_own_file(opened.rig(), options.out);
+  auto inputs = configuration::with_base_files({opened.rig().path});
+  if (!options.answers.empty()) inputs.emplace_back(options.answers);
+  configuration::require_other({options.out}, inputs);
   require_writable(options.out);
   bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
   const auto found =
@@ -128,7 +128,7 @@ int calibrate(const HwMoveOptions& options) {
                                                           question, !options.answers.empty());
                                         },
                                     .say = say});
-  write_file(options.out, bring_up::calibration_file(opened.rig(), found, options.out));
+  files::write_file(options.out, bring_up::calibration_file(opened.rig(), found, options.out));
   std::cout << options.out << ": written; next: crane hw selftest --rig " << options.out << '\n';
   return runtime::kExitDone;
 }

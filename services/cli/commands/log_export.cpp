@@ -1,16 +1,13 @@
 /// crane log export: writes recordings in other formats.
 #include "cli/log_export.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
 #include "cli/commands/log.hpp"
 #include "cli/output_file.hpp"
 #include "cli/text_table.hpp"
-#include "crane/recording/complete_file.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/recording/run_table.hpp"
 #include "recording_export/hdf5_export.hpp"
 #include "recording_export/matlab_export.hpp"
@@ -19,18 +16,13 @@ namespace crane::cli {
 namespace {
 
 /// Calls `write` with --out or standard output.
-/// @throws std::runtime_error when the file cannot be written, or is the recording
+/// @throws files::WriteError when the file cannot be written, or is the recording
 template <class Write>
 void to_output(const LogOptions& options, const recording::McapReader& recording, const Write& write) {
   const auto& out = options.out;
   if (out.empty()) return write(std::cout);
   require_new(out, options.force);
-  recording::CompleteFile complete{out, recording.files()};
-  std::ofstream file{complete.partial(), std::ios::binary};
-  if (file) write(file);
-  file.close();
-  if (!file) throw std::runtime_error(out.string() + ": cannot write: " + std::strerror(errno));
-  complete.publish();
+  files::write_file(out, write, recording.files());
 }
 
 int export_csv(const LogOptions& options) {

@@ -14,6 +14,7 @@
 #include "cli/tool_bus.hpp"
 #include "commands.hpp"
 #include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/configuration/rig.hpp"
 #include "recorder/recorder.hpp"
 #include "stack/data_files.hpp"
@@ -85,6 +86,7 @@ int record(RecordOptions options) {
   if (!options.rig.empty()) {
     const auto rig = stack::find_rig(options.rig);
     (void)configuration::load_rig(rig);  // reports the problems of the file
+    configuration::require_other({options.recorder.file}, configuration::with_base_files({rig}));
     options.recorder.rig_text = configuration::file_text(rig);
   }
   remove_existing_files(options);

@@ -10,6 +10,7 @@
 #include "cli/recording_argument.hpp"
 #include "cli/text_table.hpp"
 #include "commands.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/recording/parts.hpp"
 #include "replay/replay.hpp"
@@ -144,7 +145,7 @@ int swap(const ReplayOptions& options) {
   const auto controller = controller_of(options.swap);
   auto out = options.out;
   if (out.empty()) out = std::filesystem::path{options.file}.replace_extension(controller + ".csv");
-  require_other(out, recording::files_of(options.file));
+  configuration::require_other({out}, recording::files_of(options.file));
   require_new(out, options.force);
   const auto found = replay::swap_controller(options.file, controller);
   recording::write_csv(out, found.table);

@@ -7,8 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/output_file.hpp"
 #include "commands.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/recording/parts.hpp"
 
 namespace crane::cli {
@@ -26,7 +26,7 @@ int run(const ReviewOptions& options) {
   try {
     auto out = options.out;
     if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("html");
-    require_other(out, recording::files_of(options.file));
+    configuration::require_other({out}, recording::files_of(options.file));
     const auto found = review::review(options.file);
     if (options.json)
       std::cout << review::to_json(found, kMostPoints).dump(2) << '\n';

@@ -4,15 +4,19 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/commands/commands.hpp"
 #include "cli/plant_option.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/experiment/variant.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/twin/component.hpp"
 #include "experiments/comparison_run.hpp"
 #include "experiments/experiment_run.hpp"
@@ -101,6 +105,14 @@ void require_own_directories(const RunOptions& options, const std::vector<experi
   if (!problems.empty()) throw configuration::ConfigurationError(problems);
 }
 
+/// @throws configuration::ConfigurationError when one of `outputs` is a rig file or a scenario of `plans`
+void require_other(const std::vector<std::filesystem::path>& outputs,
+                   const std::vector<experiments::PlannedRun>& plans) {
+  std::set<std::filesystem::path> inputs;
+  for (const auto& plan : plans) inputs.insert({plan.rig.path, plan.scenario.path});
+  configuration::require_other(outputs, configuration::with_base_files({inputs.begin(), inputs.end()}));
+}
+
 int run_each(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   experiments::ExperimentOptions experiment;
   experiment.plant = options.plant;
@@ -165,6 +177,7 @@ int run_each_in_realtime(const RunOptions& options, const std::vector<experiment
   for (const auto& plan : plans) {
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
+    require_other({directory / "run.csv"}, plans);
     std::filesystem::create_directories(directory);  // an error is reported before any motion
     const auto table = runs.run(plan.rig.path, std::string{plan.controller->name}, plan.scenario);
     recording::write_csv(directory / "run.csv", table);
@@ -181,25 +194,20 @@ void show_progress(std::size_t done, std::size_t all) {
             << " of " << all << " runs" << (done == all ? "\n" : "") << std::flush;
 }
 
-template <class Write>
-void write_text(const std::filesystem::path& file, const Write& write) {
-  std::ofstream out{file, std::ios::binary};
-  write(out);
-  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
-}
-
 int compare(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   const std::filesystem::path directory{options.out};
+  require_other({directory / "comparison.csv", directory / "comparison.md", directory / "comparison.html"},
+                plans);
   std::filesystem::create_directories(directory);
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   spdlog::set_level(spdlog::level::off);  // the tables contain the cause of a stop
   const auto runs = experiments::simulate_all(plans, [&](std::size_t done) {
     if (terminal) show_progress(done, plans.size());
   });
-  write_text(directory / "comparison.csv",
-             [&](std::ostream& out) { experiment::write_comparison_csv(out, runs); });
-  write_text(directory / "comparison.md",
-             [&](std::ostream& out) { experiment::write_comparison_markdown(out, runs); });
+  files::write_file(directory / "comparison.csv",
+                    [&](std::ostream& out) { experiment::write_comparison_csv(out, runs); });
+  files::write_file(directory / "comparison.md",
+                    [&](std::ostream& out) { experiment::write_comparison_markdown(out, runs); });
   report::write_html(directory / "comparison.html",
                      experiment::comparison_page(runs, plans.front().rig.name));
   if (options.json)

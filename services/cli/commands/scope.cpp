@@ -12,6 +12,8 @@
 #include "cli/scope_picture.hpp"
 #include "cli/units.hpp"
 #include "commands.hpp"
+#include "crane/configuration/output_files.hpp"
+#include "crane/recording/parts.hpp"
 
 namespace crane::cli {
 namespace {
@@ -132,6 +134,7 @@ class Scope {
     if (captures_ > 1)
       file.replace_filename(file.stem().string() + "_" + std::to_string(captures_) +
                             file.extension().string());
+    if (!options_.file.empty()) configuration::require_other({file}, recording::files_of(options_.file));
     recording::write_csv(file, table_of(capture, table_, selection_.columns()));
     if (!screen_) std::cout << "written: " << file.string() << '\n';
   }
@@ -151,6 +154,7 @@ class Scope {
 };
 
 int from_recording(const ScopeOptions& options) {
+  configuration::require_other({options.out}, recording::files_of(options.file));
   recording::McapReader recording{options.file};
   const FieldTable table{recording};
   Scope scope{options, table};

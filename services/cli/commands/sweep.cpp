@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/workers/process_pool.hpp"
 #include "stack/data_files.hpp"
 #include "sweep/sweep_run.hpp"
@@ -50,6 +52,15 @@ class Terminal {
   double next_s_ = 0;
 };
 
+/// @throws configuration::ConfigurationError when a file of the sweep is one of its inputs
+void require_other_files(const SweepOptions& options, const sweep::Sweep& sweep) {
+  std::vector<std::filesystem::path> inputs{stack::find_sweep(options.file)}, outputs;
+  for (const auto& on : sweep.cases) inputs.insert(inputs.end(), {on.scenario.path, on.rig.path});
+  for (const char* name : {sweep::kLogFile, sweep::kRunsFile, sweep::kPageFile})
+    outputs.push_back(std::filesystem::path{options.out} / name);
+  configuration::require_other(outputs, configuration::with_base_files(inputs));
+}
+
 int run(const SweepOptions& options) {
   const auto sweep = checked_sweep(options);
   if (options.check) {
@@ -61,6 +72,7 @@ int run(const SweepOptions& options) {
   runtime::install_stop_signals();
   spdlog::set_level(spdlog::level::off);  // the table has the cause of a stop
   const std::filesystem::path directory{options.out};
+  require_other_files(options, sweep);
   Terminal terminal;
   const auto groups = sweep::run_sweep(sweep, {.directory = directory,
                                                .processes = options.jobs,

@@ -94,6 +94,7 @@ int run(const TuneCommand& command) {
                               .processors = workers::processors(),
                               .recommend = !command.identify_only,
                               .seed = command.seed};
+  if (!command.hidden.empty()) options.inputs.push_back(stack::find_rig(command.hidden));
   for (const char* name : stack::kManeuvers) options.maneuvers.push_back(stack::find_scenario(name));
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   if (terminal)

@@ -1,9 +1,6 @@
 /// crane zone: no-go zones of a rig file.
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,9 +13,10 @@
 #include "commands.hpp"
 #include "crane/bus/cdr.hpp"
 #include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/output_files.hpp"
 #include "crane/configuration/zone_editor.hpp"
 #include "crane/fields/printable.hpp"
-#include "crane/recording/complete_file.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/recording/run_table.hpp"
 #include "crane/runtime/process.hpp"
@@ -77,18 +75,20 @@ int list(const ZoneOptions& options) {
   return runtime::kExitDone;
 }
 
+/// Call before anything is read: an output of another name must not be the recording or a base of the rig
+/// file.
+void require_other_files(const ZoneOptions& options, const std::filesystem::path& rig) {
+  auto inputs = configuration::with_base_files({rig});
+  inputs.erase(inputs.begin());  // the rig file itself is replaced
+  if (!options.recording.empty()) inputs.emplace_back(options.recording);
+  configuration::require_other({options.out.empty() ? rig : std::filesystem::path{options.out}}, inputs);
+}
+
 /// Replaces the rig file, or the file of --out, by the new text.
 void write(const ZoneOptions& options, const std::filesystem::path& rig, const std::string& text) {
   const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
   if (!options.out.empty()) require_new(target, options.force);
-  recording::CompleteFile complete{target};
-  std::ofstream file{complete.partial(), std::ios::binary};
-  file << text;
-  file.close();
-  if (!file)
-    throw std::runtime_error(target.string() + ": cannot be written (" + std::strerror(errno) +
-                             "); give another file with --out");
-  complete.publish();
+  files::write_file(target, text);
   std::cout << target.string() << ": written; it takes effect when the stack starts again\n";
 }
 
@@ -122,6 +122,7 @@ TaughtBox box_of(const ZoneOptions& options, const configuration::Rig& rig) {
 int learn(const ZoneOptions& options) {
   const auto path = stack::find_rig(options.rig);
   const auto rig = configuration::load_rig(path);
+  require_other_files(options, path);
   const auto box = box_of(options, rig);
   auto zone = box.zone(options.name);
   if (options.bottom_m) zone.bottom_m = *options.bottom_m;
@@ -144,6 +145,7 @@ int learn(const ZoneOptions& options) {
 
 int remove(const ZoneOptions& options) {
   const auto path = stack::find_rig(options.rig);
+  require_other_files(options, path);
   write(options, path,
         configuration::without_zone(configuration::file_text(path), path.string(), options.name));
   return runtime::kExitDone;

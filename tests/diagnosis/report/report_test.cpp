@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/files/complete_file.hpp"
 #include "crane/plant/term.hpp"
 #include "crane/simulator/simulated_board.hpp"
 #include "report/residual_view.hpp"
@@ -247,7 +248,7 @@ TEST(ReportFiles, AreWrittenAndRemoveAnEarlierProposal) {
   example.diagnosis.next_experiment.reset();
   write_report(directory, example.diagnosis, rig, {example.run});
   EXPECT_FALSE(std::filesystem::exists(directory / "next_experiment.toml"));
-  EXPECT_THROW(write_report(directory / "nowhere", example.diagnosis, rig, {}), ReportError);
+  EXPECT_THROW(write_report(directory / "nowhere", example.diagnosis, rig, {}), files::WriteError);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class CsvError : public std::runtime_error {
 /// @throws CsvError when columns differ in length, or when a name is empty, occurs twice or contains a comma,
 ///   a quote or a line end
 void write_csv(std::ostream& out, const Table& table);
-/// @throws CsvError as above, and when writing fails
+/// As files::write_file(). @throws CsvError as above, files::WriteError
 void write_csv(const std::filesystem::path& file, const Table& table);
 
 /// Ignores blank lines and lines that begin with '#'. The first remaining line is the header.

@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 
+#include "crane/files/complete_file.hpp"
 #include "crane/topics.hpp"
 
 namespace crane::recording {
@@ -27,10 +28,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 /// The file cannot be created or extended: "run.mcap: cannot write: No space left on device". Data that were
 /// flushed before remain readable. The writer accepts no more data; every further call throws the same error.
-class WriteError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using files::WriteError;
 
 struct WriterOptions {
   std::size_t chunk_bytes = 1U << 20U;             ///< size at which a chunk is closed, bytes, > 0

@@ -93,13 +93,8 @@ struct Page {
 ///   x, y and upper differ in length, when x decreases or is not finite, or when a picture is not an SVG
 [[nodiscard]] std::string to_html(const Page& page);
 
-/// The file cannot be written. what() names the file.
-class WriteError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-/// Writes the page. @param file  its directory must exist. @throws WriteError, and the exceptions of
-/// to_html()
+/// Writes the page, as files::write_file(). @param file  its directory must exist. @throws files::WriteError,
+/// and the exceptions of to_html()
 void write_html(const std::filesystem::path& file, const Page& page);
 
 }  // namespace crane::report

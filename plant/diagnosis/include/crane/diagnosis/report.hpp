@@ -1,8 +1,8 @@
 #pragma once
 /// Files of `crane diagnose`: report.json, report.html, extended.toml, pictures, next_experiment.toml.
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,20 +24,18 @@ namespace crane::diagnosis {
 [[nodiscard]] report::Page report_page(const Diagnosis& diagnosis, const configuration::Rig& rig,
                                        const std::vector<Run>& test);
 
-/// A file cannot be written; the message names it.
-class ReportError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// Draws overlay_N.svg, one per held-out run, and residual_COLUMN.svg.
 /// @param directory must exist. @throws plot::PictureError
 void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                     const configuration::Rig& rig, const std::vector<Run>& test);
 
+/// The files of write_report().
+inline constexpr std::array kReportFiles{"report.json", "extended.toml", "next_experiment.toml",
+                                         "report.html"};
+
 /// Writes report.json, report.html and extended.toml, and next_experiment.toml if the diagnosis proposes an
 /// experiment; otherwise removes the next_experiment.toml of an earlier diagnosis.
-/// @param directory must exist. @throws ReportError, report::WriteError
+/// @param directory must exist. @throws files::WriteError
 void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                   const configuration::Rig& rig, const std::vector<Run>& test);
 

@@ -1,0 +1,79 @@
+// Commands that read and write files, as a user starts them: an input is never an output, and a selection
+// without effect is refused.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "../recording/temporary_directory.hpp"
+#include "../system/program_run.hpp"
+#include "crane/configuration/rig.hpp"
+#include "stack/child_processes.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::cli {
+namespace {
+
+using recording::contents_of;
+using recording::put_contents;
+using system_test::Ended;
+using testing::HasSubstr;
+
+Ended crane(const std::vector<std::string>& arguments) {
+  return system_test::run_program(stack::program_directory() / "crane", arguments);
+}
+
+class FileCommands : public testing::Test {
+ protected:
+  FileCommands() { std::filesystem::create_directories(directory_ / "out"); }
+  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  /// Writes a rig file that extends the tower.
+  [[nodiscard]] std::string rig(const std::string& name) const {
+    put_contents(path(name),
+                 "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"  # mine\n");
+    return path(name);
+  }
+  /// Expects one line, exit code 2, and an unchanged input.
+  static void expect_refused(const std::vector<std::string>& command, const std::string& input) {
+    SCOPED_TRACE(testing::PrintToString(command));
+    const auto before = contents_of(input);
+    const auto refused = crane(command);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.errors, input + ": is a file that the command reads; give another name\n");
+    EXPECT_EQ(contents_of(input), before);
+  }
+  static void expect_one_line(const std::vector<std::string>& command, const std::string& line) {
+    SCOPED_TRACE(testing::PrintToString(command));
+    const auto refused = crane(command);
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_THAT(refused.errors, HasSubstr(line));
+    EXPECT_EQ(std::ranges::count(refused.errors, '\n'), 1) << refused.errors;
+    EXPECT_EQ(refused.output, "");
+  }
+
+  recording::TemporaryDirectory directory_;
+};
+
+TEST_F(FileCommands, NeverOverwriteTheirRigFile) {
+  const auto out = path("out");
+  expect_refused({"run", "maneuver_1", "--in-process", "--rig", rig("out/rig.toml"), "--out", out},
+                 path("out/rig.toml"));
+  expect_refused({"tune", "--rig", rig("out/tuned.toml"), "--out", out}, path("out/tuned.toml"));
+  expect_refused({"tune", "--hidden", path("out/tuned.toml"), "--out", out}, path("out/tuned.toml"));
+  expect_refused(
+      {"identify", "friction", "--axis", "trolley", "--rig", rig("out/identified.toml"), "--out", out},
+      path("out/identified.toml"));
+  put_contents(path("a.csv"), "time_s\n");
+  expect_refused({"diagnose", "--rig", rig("out/extended.toml"), "--train", path("a.csv"), "--test",
+                  path("a.csv"), "--out", out},
+                 path("out/extended.toml"));
+}
+
+TEST_F(FileCommands, NeverOverwriteABaseOfTheirRigFile) {
+  (void)rig("out/rig.toml");
+  put_contents(path("mine.toml"), "extends = \"out/rig.toml\"\n");
+  expect_refused({"run", "maneuver_1", "--in-process", "--rig", path("mine.toml"), "--out", path("out")},
+                 path("out/rig.toml"));
+}
+
+}  // namespace
+}  // namespace crane::cli
