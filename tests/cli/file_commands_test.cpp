@@ -75,5 +75,19 @@ TEST_F(FileCommands, NeverOverwriteABaseOfTheirRigFile) {
                  path("out/rig.toml"));
 }
 
+TEST_F(FileCommands, AZoneIsRemovedIntoAnotherDirectory) {
+  (void)rig("base.toml");
+  put_contents(
+      path("my.toml"),
+      "extends = \"base.toml\"\n[clearance]\nload_radius_m = 0.1\nsuspension_height_m = 2.0\n"
+      "[[zone]]\nname = \"mast\"\nshape = \"cylinder\"\nposition_x_m = -0.8\nradius_m = 0.2\ntop_m = 3\n");
+  const auto removed =
+      crane({"zone", "remove", "mast", "--rig", path("my.toml"), "--out", path("out/my.toml")});
+  EXPECT_EQ(removed.exit_code, 0) << removed.errors;
+  EXPECT_EQ(configuration::load_rig(path("out/my.toml")).clearance.load_radius_m, 0.1);
+  expect_refused({"zone", "remove", "mast", "--rig", path("my.toml"), "--out", path("base.toml"), "--force"},
+                 path("base.toml"));
+}
+
 }  // namespace
 }  // namespace crane::cli

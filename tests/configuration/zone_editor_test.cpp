@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "../recording/temporary_directory.hpp"
 #include "crane/configuration/extended_file.hpp"
 
 namespace crane::configuration {
@@ -72,6 +73,65 @@ TEST(ZoneEditor, RefusesAZoneThatContradictsTheRig) {
   zone.position_x_m = 0.3;
   EXPECT_THAT(refusal([&] { return with_zone(kTowerText, "rig.toml", zone); }),
               HasSubstr("contains the position of [start]"));
+}
+
+/// A library for regular expressions recursed once for each character of a line.
+TEST(ZoneEditor, AcceptsALongComment) {
+  const auto text = "# " + std::string(60'000, 'x') + "\n" + kTowerText;
+  const auto with = with_zone(text, "rig.toml", mast("mast"));
+  EXPECT_EQ(without_zone(with, "rig.toml", "mast"), text);
+}
+
+TEST(ZoneEditor, FindsTheHeadersThatTomlPermits) {
+  const std::string body =
+      "name = \"a\"\nshape = \"cylinder\"\nposition_x_m = -0.8\nradius_m = 0.2\ntop_m = 3\n";
+  for (const char* header : {"[[zone]]", "  [[ zone ]]  # comment", "\t[[zone ]]"})
+    EXPECT_EQ(without_zone(kTowerText + header + "\n" + body, "rig.toml", "a"), kTowerText) << header;
+}
+
+/// A rig file in one directory, and its text for another one.
+class Moved : public testing::Test {
+ protected:
+  Moved() {
+    std::filesystem::create_directories(directory / "rigs");
+    std::filesystem::create_directories(directory / "mine");
+    recording::put_contents(directory / "rigs/base.toml", kTowerText);
+  }
+  [[nodiscard]] std::string moved_text(const std::string& text) const {
+    return moved(text, directory / "rigs/my.toml", directory / "mine/my.toml");
+  }
+  recording::TemporaryDirectory directory;
+};
+
+TEST_F(Moved, ARelativeBaseIsTheSameFileAtTheNewPlace) {
+  for (const char* extends : {"extends = \"base.toml\"", "# first\nextends='./base.toml' # the tower",
+                              "extends   =   \"../rigs/base.toml\""}) {
+    const auto text = std::string{extends} + "\nname = \"mine\"  # of us\n";
+    const auto there = moved_text(text);
+    EXPECT_THAT(there, HasSubstr((directory / "rigs/base.toml").string())) << extends;
+    EXPECT_THAT(there, HasSubstr("name = \"mine\"  # of us\n"));
+    auto read = parse_rig(there, (directory / "mine/my.toml").string());
+    read.path = (directory / "rigs/my.toml").string();
+    EXPECT_EQ(read, parse_rig(text, read.path));
+  }
+}
+
+TEST_F(Moved, AnotherBaseAtTheNewPlaceIsNotUsed) {
+  recording::put_contents(directory / "mine/base.toml",
+                          kTowerText.substr(0, kTowerText.find("\n[clearance]")) + "\n");
+  const auto there = moved_text("extends = \"base.toml\"\n");
+  EXPECT_EQ(parse_rig(there, (directory / "mine/my.toml").string()).clearance.load_radius_m, 0.1);
+}
+
+TEST_F(Moved, TextIsUnchangedInItsDirectoryAndWithoutARelativeBase) {
+  const std::string relative = "extends = \"base.toml\"\n";
+  EXPECT_EQ(moved(relative, directory / "rigs/my.toml", directory / "rigs/other.toml"), relative);
+  EXPECT_EQ(moved_text(kTowerText), kTowerText);
+}
+
+TEST_F(Moved, ABaseThatCannotBeRewrittenIsRefused) {
+  EXPECT_THAT(refusal([&] { return moved_text("extends = \"\"\"base.toml\"\"\"\n"); }),
+              HasSubstr("write the file beside"));
 }
 
 }  // namespace

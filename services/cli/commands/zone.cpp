@@ -88,7 +88,7 @@ void require_other_files(const ZoneOptions& options, const std::filesystem::path
 void write(const ZoneOptions& options, const std::filesystem::path& rig, const std::string& text) {
   const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
   if (!options.out.empty()) require_new(target, options.force);
-  files::write_file(target, text);
+  files::write_file(target, configuration::moved(text, rig, target));
   std::cout << target.string() << ": written; it takes effect when the stack starts again\n";
 }
 
