@@ -172,10 +172,11 @@ std::vector<Tuple> tuples(const Selection& selection) {
   const auto wanted = [](const auto& list, const auto& item) {
     return list.empty() || std::ranges::find(list, item) != list.end();
   };
-  for (std::uint64_t seed = selection.first_seed; seed < selection.first_seed + selection.seeds; ++seed)
+  for (std::uint64_t i = 0; i < selection.seeds; ++i)
     for (std::size_t m = 0; m < kMoments; ++m)
       for (const Hazard& hazard : hazards()) {
         const auto moment = static_cast<Moment>(m);
+        const auto seed = selection.first_seed + i;
         if (hazard.test_bed == TestBed::campaign && seed % hazard.every == 0 &&
             wanted(selection.moments, moment) && wanted(selection.hazards, hazard.number))
           all.push_back({hazard.number, moment, seed});

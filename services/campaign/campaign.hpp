@@ -38,9 +38,9 @@ struct Result {
 };
 
 struct Selection {
-  std::vector<int> hazards{};     ///< empty: all
-  std::vector<Moment> moments{};  ///< empty: all
-  std::uint64_t first_seed = 0, seeds = 1;
+  std::vector<int> hazards{};               ///< empty: all
+  std::vector<Moment> moments{};            ///< empty: all
+  std::uint64_t first_seed = 0, seeds = 1;  ///< their sum must be representable
 };
 /// All tuples, in the order of settings and moments.
 [[nodiscard]] std::vector<Tuple> tuples(const Selection& selection);

@@ -89,5 +89,17 @@ TEST_F(FileCommands, AZoneIsRemovedIntoAnotherDirectory) {
                  path("base.toml"));
 }
 
+TEST_F(FileCommands, ACampaignWithoutARunIsRefused) {
+  expect_one_line({"campaign", "--hazard", "26"},
+                  "--hazard 26: wall-clock jump: the campaign cannot inject it; "
+                  "it is verified by tests/system (ClockJump.*)");
+  expect_one_line({"campaign", "--hazard", "30"}, "it is verified by tests/recording");
+  expect_one_line({"campaign", "--first-seed", "18446744073709551615", "--seeds", "12"},
+                  "the last seed must be below 2^64 - 1");
+  expect_one_line(
+      {"campaign", "--hazard", "9", "--moment", "cruise", "--seeds", "1", "--log", "/nonexistent/x"},
+      "/nonexistent/x: cannot write: No such file or directory");
+}
+
 }  // namespace
 }  // namespace crane::cli

@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <set>
 #include <thread>
@@ -32,17 +35,44 @@ struct CampaignOptions {
 Selection selection_of(const CampaignOptions& options) {
   Selection selection{
       .hazards = options.hazards, .moments = {}, .first_seed = options.first_seed, .seeds = options.seeds};
-  for (const int number : options.hazards)
-    if (find_hazard(number) == nullptr)
-      throw configuration::ConfigurationError(
-          {"--hazard " + std::to_string(number) + ": unknown; see --list"});
+  for (const int number : options.hazards) {
+    const std::string given = "--hazard " + std::to_string(number) + ": ";
+    const auto* hazard = find_hazard(number);
+    if (hazard == nullptr) throw configuration::ConfigurationError({given + "unknown; see --list"});
+    if (hazard->test_bed != TestBed::campaign)
+      throw configuration::ConfigurationError({given + hazard->name +
+                                               ": the campaign cannot inject it; it is verified by " +
+                                               hazard->verified_by});
+  }
   for (const auto& name : options.moments) {
     const auto moment = moment_named(name);
     if (!moment) throw configuration::ConfigurationError({"--moment " + name + ": unknown; see --list"});
     selection.moments.push_back(*moment);
   }
   if (options.seed) selection.first_seed = *options.seed, selection.seeds = 1;
+  if (selection.first_seed > std::numeric_limits<std::uint64_t>::max() - selection.seeds)
+    throw configuration::ConfigurationError({"--first-seed " + std::to_string(selection.first_seed) +
+                                             " --seeds " + std::to_string(selection.seeds) +
+                                             ": the last seed must be below 2^64 - 1"});
   return selection;
+}
+
+/// @throws configuration::ConfigurationError when no run is selected
+std::vector<Tuple> tuples_of(const CampaignOptions& options) {
+  const auto selection = selection_of(options);
+  auto all = tuples(selection);
+  if (!all.empty()) return all;
+  std::uint64_t every = 1;  // of hazards that run long
+  for (const int number : options.hazards) every = std::max(every, find_hazard(number)->every);
+  throw configuration::ConfigurationError(
+      {"no run: the hazards of --hazard run only with seeds that are "
+       "multiples of " +
+       std::to_string(every) + "; choose another --seed or more --seeds"});
+}
+
+/// @throws std::runtime_error that names the file of --log
+[[noreturn]] void refuse_log(const std::string& log) {
+  throw std::runtime_error(log + ": cannot write: " + std::strerror(errno));
 }
 
 int list() {
@@ -73,17 +103,20 @@ std::set<std::string> done_before(const std::string& log, Table& table) {
 }
 
 int run_many(const CampaignOptions& options) {
-  auto wanted = tuples(selection_of(options));
+  auto wanted = tuples_of(options);
   Table table;
   const auto done = options.log.empty() ? std::set<std::string>{} : done_before(options.log, table);
   std::erase_if(wanted, [&](const Tuple& tuple) { return done.contains(to_string(tuple)); });
   std::ofstream log;
-  if (!options.log.empty()) log.open(options.log, std::ios::app);
+  if (!options.log.empty()) {
+    log.open(options.log, std::ios::app);
+    if (!log) refuse_log(options.log);  // before the first run
+  }
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   std::size_t count = 0;
   run_all(wanted, options.jobs, [&](const Result& result) {
     table.add(result);
-    if (log) log << line_of(result) << '\n' << std::flush;
+    if (log.is_open() && !(log << line_of(result) << '\n' << std::flush)) refuse_log(options.log);
     if (terminal && ++count % 100 == 0) std::cerr << "\r" << count << " of " << wanted.size() << " runs";
   });
   if (terminal) std::cerr << "\r";
@@ -107,7 +140,7 @@ int run(const CampaignOptions& options) {
   spdlog::set_level(spdlog::level::off);  // the recordings contain the messages of the components
   if (options.list) return list();
   if (options.fault_free_h > 0) return run_free(options);
-  const auto all = tuples(selection_of(options));
+  const auto all = tuples_of(options);
   if (options.seed && all.size() == 1) return run_single(options, all.front());
   if (!options.record.empty())
     throw configuration::ConfigurationError({"--record needs exactly one --hazard, --moment and --seed"});
