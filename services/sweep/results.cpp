@@ -8,7 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
+
+#include "crane/fields/printable.hpp"
 
 namespace crane::sweep {
 namespace {
@@ -24,6 +27,15 @@ std::string digest_of(const std::string& text) {
 
 Result header_of(const Sweep& sweep) {
   return {{"sweep", sweep.name}, {"runs", sweep.size()}, {"identity", digest_of(identity_of(sweep))}};
+}
+
+/// @return nothing when the line is no result
+std::optional<std::size_t> run_number_of(const Result& result) {
+  if (!result.is_object()) return std::nullopt;
+  const auto run = result.find("run"), why = result.find("stopped_because");
+  if (run == result.end() || !run->is_number_unsigned() || why == result.end() || !why->is_string())
+    return std::nullopt;
+  return run->get<std::size_t>();
 }
 
 std::vector<std::string> figure_names() {
@@ -60,8 +72,9 @@ Log::~Log() {
 void Log::read(const std::string& header) {
   std::ifstream in{file_, std::ios::binary};
   const std::string text{std::istreambuf_iterator<char>{in}, {}};
-  std::size_t begin = 0;
+  std::size_t begin = 0, line_number = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    ++line_number;
     const std::string line = text.substr(begin, end - begin);
     if (begin == 0) {
       if (line != header)
@@ -71,11 +84,11 @@ void Log::read(const std::string& header) {
       continue;
     }
     Result result = Result::parse(line, nullptr, false);
-    if (result.is_discarded() || !result.contains("run") || result["run"].get<std::size_t>() >= runs_)
-      throw LogError(file_.string() + ": damaged in the line \"" + line.substr(0, 40) +
-                     "\"; remove this line, or the file");
-    const auto number = result["run"].get<std::size_t>();
-    results_[number] = std::move(result);
+    const auto number = run_number_of(result);
+    if (!number || *number >= runs_)
+      throw LogError(file_.string() + ":" + std::to_string(line_number) + ": damaged: \"" +
+                     fields::printable(line.substr(0, 40)) + "\"; remove this line, or the file");
+    results_[*number] = std::move(result);
   }
   if (begin < text.size()) std::filesystem::resize_file(file_, begin);
 }

@@ -107,9 +107,21 @@ TEST_F(SweepRun, DoesNotMixTheResultsOfTwoSweeps) {
 }
 
 TEST_F(SweepRun, RefusesADamagedLog) {
-  { const Log begun{directory_ / "sweep.jsonl", small()}; }
-  std::ofstream{directory_ / "sweep.jsonl", std::ios::app} << "{\"run\": 77}\n";
-  EXPECT_THROW((Log{directory_ / "sweep.jsonl", small()}), LogError);
+  for (const char* line : {"{\"run\": 77, \"stopped_because\": \"\"}", "{\"run\": \"x\"}",
+                           "{\"run\": -1, \"stopped_because\": \"\"}", "{\"run\": 0}",
+                           "{\"run\": 0, \"stopped_because\": 3}", "[0]", "run 0"}) {
+    SCOPED_TRACE(line);
+    const auto file = directory_ / "sweep.jsonl";
+    std::filesystem::remove(file);
+    { const Log begun{file, small()}; }
+    std::ofstream{file, std::ios::app} << line << '\n';
+    try {
+      (void)Log{file, small()};
+      FAIL() << "accepted";
+    } catch (const LogError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("sweep.jsonl:2: damaged: \""));
+    }
+  }
 }
 
 TEST_F(SweepRun, AnImpossibleRunIsARowWithItsReason) {
