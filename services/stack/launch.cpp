@@ -88,7 +88,8 @@ void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions
 std::string describe(const Ended& ended) { return ended.name + " has ended: " + ended.how; }
 
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
-                      bus::Bus& bus, std::chrono::milliseconds patience) {
+                      bus::Bus& bus, std::chrono::milliseconds patience,
+                      const std::function<bool(const Ended&)>& continues_without) {
   auto statuses = bus.subscriber(topics::node);
   std::set<std::string> missing;
   for (const auto& spec : specs) missing.insert(std::string{spec.name});
@@ -98,7 +99,8 @@ void wait_until_ready(ChildProcesses& children, const std::vector<runtime::Compo
     while (const auto status = statuses.take())
       if (status->phase == crane_PHASE_READY && children.contains(static_cast<pid_t>(status->pid)))
         missing.erase(status->name);
-    if (const auto ended = children.ended()) throw std::runtime_error(describe(*ended));
+    if (const auto ended = children.ended())
+      if (!continues_without || !continues_without(*ended)) throw std::runtime_error(describe(*ended));
     if (runtime::stop_requested()) throw std::runtime_error("interrupted");
     if (runtime::monotonic_ns() < deadline_ns) continue;
     std::string names;

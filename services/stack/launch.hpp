@@ -1,5 +1,6 @@
 #pragma once
 /// Starts the processes of a stack with common options, and waits until all are ready.
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,9 +55,13 @@ void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions
 inline constexpr std::chrono::seconds kLongestStart{60};
 
 /// Waits until every component has reported ready on crane/node, from a process of `children`.
-/// @throws std::runtime_error that names a component that has ended, or did not report within `patience`
+/// @param continues_without  called for a child process that has ended; true: the start continues. Empty: the
+///   end of any child process ends the start
+/// @throws std::runtime_error that names a process that has ended, or a component that did not report within
+///   `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
-                      bus::Bus& bus, std::chrono::milliseconds patience);
+                      bus::Bus& bus, std::chrono::milliseconds patience,
+                      const std::function<bool(const Ended&)>& continues_without = {});
 
 /// One line about a child process that has ended by itself.
 [[nodiscard]] std::string describe(const Ended& ended);

@@ -126,5 +126,24 @@ TEST_F(BlackBox, EndsWithoutAnEffectOnTheStack) {
   EXPECT_THAT(up.errors(), HasSubstr("the crane continues without its black box"));
 }
 
+TEST(BlackBoxWithoutADirectory, DoesNotPreventTheStart) {
+  const recording::TemporaryDirectory directory;
+  const auto program = stack::program_directory() / "crane";
+  recording::put_contents(directory / "file", "");
+  ProgramRun up{program,
+                {"up", "--domain", std::to_string(kDomain), "--crane", crane_name(), "--priority", "0",
+                 "--black-box", (directory / "file").string()}};
+  ASSERT_TRUE(up.wait_for("Ctrl-C ends it", 30s)) << up.errors();
+  EXPECT_THAT(up.output() + up.errors(),
+              testing::AnyOf(HasSubstr("stops are not recorded: black_box has ended: exit code 2"),
+                             HasSubstr("the crane continues without its black box")));
+  EXPECT_THAT(up.errors(), HasSubstr("directory of the black box"));
+  EXPECT_EQ(run_program(program, {"status", "--domain", std::to_string(kDomain), "--crane", crane_name()})
+                .exit_code,
+            0);
+  up.send(SIGINT);
+  EXPECT_EQ(up.wait(15s), 0) << up.errors();
+}
+
 }  // namespace
 }  // namespace crane::system_test

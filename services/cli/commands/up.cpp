@@ -51,19 +51,21 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   children.start("recorder", "crane", arguments);
 }
 
+constexpr const char* kBlackBox = "black_box";
+
 void start_black_box(stack::ChildProcesses& children, const UpOptions& options) {
   auto bus = options.launch.bus;
   bus.vendor = black_box::default_options().bus.vendor;
   auto arguments = runtime::arguments(bus);
   arguments.insert(arguments.begin(), {"black-box", "--out", options.black_box.string(), "--rig",
                                        options.launch.rig, "--parent", std::to_string(::getpid())});
-  children.start("black_box", "crane", arguments);
+  children.start(kBlackBox, "crane", arguments);
 }
 
 /// @return function that is missing after `process` has ended; empty: the process belongs to the loop
 std::string goes_without(const std::string& process) {
   if (process == "recorder") return "a recording";
-  if (process == "black_box") return "its black box";
+  if (process == kBlackBox) return "its black box";
   if (process == "twin") return "its twin";
   return process == "dashboard" ? "its dashboard" : "";
 }
@@ -171,19 +173,29 @@ int up(UpOptions options) {
   DashboardKeeper dashboard{children, options};
   if (options.dashboard_runs.empty()) options.dashboard_runs = options.black_box;
   if (options.dashboard) {
-    std::filesystem::create_directories(options.dashboard_runs);
+    std::error_code ignored;  // the dashboard then lists no runs
+    std::filesystem::create_directories(options.dashboard_runs, ignored);
     dashboard.start();
   }
-  stack::wait_until_ready(children, specs, bus, stack::kLongestStart);
+  std::optional<stack::Ended> black_box;  // if it has ended during the start
+  stack::wait_until_ready(children, specs, bus, stack::kLongestStart, [&](const stack::Ended& ended) {
+    if (ended.name != kBlackBox) return false;
+    black_box = ended;
+    return true;
+  });
   if (options.launch.clock == "lockstep")
     stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
         {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
   std::cout << rig.name << " is up with " << controller.name << " (crane '" << options.launch.bus.crane
             << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"
+            << (black_box ? "stops are not recorded: " + stack::describe(*black_box) + "\n" : "")
             << "next: crane status, crane reset, crane arm, crane move --trolley 0.8; Ctrl-C ends it"
             << std::endl;
   std::optional<runtime::Node> node;  // with keys, the role operator may not write crane/node
   if (options.launch.bus.secure.empty()) node.emplace(bus, runtime::NodeIdentity{"crane_up", ""});
+  if (black_box && node)
+    node->error("process_ended", stack::describe(*black_box) + "; stops are not recorded",
+                "read the output of `crane up`, then restart the stack");
   stack::ServiceManager manager;
   manager.ready();
   const bool orderly = watch(children, dashboard, node, manager);
