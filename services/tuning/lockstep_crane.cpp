@@ -1,6 +1,9 @@
 #include "tuning/lockstep_crane.hpp"
 
+#include <set>
+
 #include "crane/bridge/bridge.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "crane/simulator/component.hpp"
 #include "crane/simulator/simulated_board.hpp"
 #include "experiments/experiment_run.hpp"
@@ -89,6 +92,32 @@ experiment::ComparedRun simulate_on(const configuration::Rig& truth, const confi
     run.stopped_because = error.what();
   }
   return run;
+}
+
+std::vector<std::string> exchanged_channels(const configuration::Rig& truth, const configuration::Rig& rig) {
+  std::vector<std::string> problems;
+  const auto compare = [&](const std::string& table, const std::string& key, const auto& present,
+                           const auto& channel, std::size_t count) {
+    std::set<int> in_truth, in_rig;
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (present(i)) ++all, in_truth.insert(channel(truth, i)), in_rig.insert(channel(rig, i));
+    if (in_truth.size() < all || in_rig.size() < all) return;  // a rig file that states no channels
+    for (std::size_t i = 0; i < count; ++i)
+      if (present(i) && channel(truth, i) != channel(rig, i))
+        problems.push_back(truth.path + ": " + table + "." + plant::kCoordinates[i].name + "." + key + " = " +
+                           std::to_string(channel(truth, i)) + ": must be " +
+                           std::to_string(channel(rig, i)) +
+                           " as in --rig: a simulation in lockstep has no board with channels");
+  };
+  using configuration::Rig;
+  compare(
+      "drive", "dac_channel", [&](std::size_t i) { return rig.drives[i].present && truth.drives[i].present; },
+      [](const Rig& one, std::size_t i) { return one.drives[i].dac_channel; }, rig.drives.size());
+  compare(
+      "encoder", "channel", [&](std::size_t i) { return rig.measures(i) && truth.measures(i); },
+      [](const Rig& one, std::size_t i) { return one.encoders[i].channel; }, rig.encoders.size());
+  return problems;
 }
 
 Motion LockstepCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {

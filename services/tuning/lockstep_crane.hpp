@@ -1,5 +1,8 @@
 #pragma once
 /// A simulated crane in lockstep whose true rig differs from the rig file of the control loop.
+#include <string>
+#include <vector>
+
 #include "crane/experiment/comparison.hpp"
 #include "crane/simulator/integrator.hpp"
 #include "tuning/crane_access.hpp"
@@ -18,6 +21,11 @@ namespace crane::tuning {
                                                   const control::Controller& controller,
                                                   const experiment::Scenario& scenario,
                                                   simulator::Method integrator = simulator::Method::cvode);
+
+/// @return channels of the board that `truth` exchanges: the simulated board has no channels, so that a
+/// motion would not show the wrong connection. Empty when the channels agree, or when a rig states none
+[[nodiscard]] std::vector<std::string> exchanged_channels(const configuration::Rig& truth,
+                                                          const configuration::Rig& rig);
 
 class LockstepCrane final : public CraneAccess {
  public:

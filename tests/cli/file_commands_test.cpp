@@ -101,5 +101,34 @@ TEST_F(FileCommands, ACampaignWithoutARunIsRefused) {
       "/nonexistent/x: cannot write: No such file or directory");
 }
 
+TEST_F(FileCommands, OptionsWithoutEffectAreRefused) {
+  put_contents(path("run.mcap"), "");
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--out", path("y.csv")},
+                                                  {"--force"},
+                                                  {"--processes", "--swap", "controller=pd"}}) {
+    std::vector<std::string> command{"replay", path("run.mcap")};
+    command.insert(command.end(), options.begin(), options.end());
+    const auto refused = crane(command);
+    EXPECT_EQ(refused.exit_code, 2) << testing::PrintToString(command);
+    EXPECT_THAT(refused.errors, HasSubstr("--swap"));
+  }
+  expect_one_line({"run", "--compare", "--clock", "realtime"},
+                  "--clock = realtime: cannot be combined with --compare");
+}
+
+/// The simulated board has no channels: the exchange would have no effect.
+TEST_F(FileCommands, ATuningRefusesAHiddenCraneWithExchangedChannels) {
+  const auto base = "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"\n";
+  put_contents(path("drives.toml"),
+               base + "[drive.trolley]\ndac_channel = 1\n[drive.slew]\ndac_channel = 0\n");
+  const auto drives = crane({"tune", "--hidden", path("drives.toml"), "--out", path("out")});
+  EXPECT_EQ(drives.exit_code, 2);
+  EXPECT_THAT(drives.errors, HasSubstr("drive.trolley.dac_channel = 1: must be 0 as in --rig"));
+  put_contents(path("encoders.toml"), base + "[encoder.trolley]\nchannel = 1\n[encoder.slew]\nchannel = 0\n");
+  const auto encoders = crane({"tune", "--hidden", path("encoders.toml"), "--out", path("out")});
+  EXPECT_EQ(encoders.exit_code, 2);
+  EXPECT_THAT(encoders.errors, HasSubstr("encoder.trolley.channel = 1: must be 0 as in --rig"));
+}
+
 }  // namespace
 }  // namespace crane::cli

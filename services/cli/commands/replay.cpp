@@ -181,14 +181,18 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->add_option("FILE", options->file, "recording of crane run, crane record or crane up --record (.mcap)")
       ->required()
       ->check(existing_recording());
-  command->add_option("--swap", options->swap,
-                      "controller=NAME: compute what this controller would have demanded at the recorded "
-                      "states, and write a CSV file");
-  command->add_option("--out", options->out,
-                      "CSV file of --swap; default: FILE with the extension .NAME.csv instead of .mcap");
-  auto* processes =
-      command->add_flag("--processes", options->processes,
-                        "one process for each component, over DDS; default: one process for all");
+  auto* swapped =
+      command->add_option("--swap", options->swap,
+                          "controller=NAME: compute what this controller would have demanded at the recorded "
+                          "states, and write a CSV file");
+  command
+      ->add_option("--out", options->out,
+                   "CSV file of --swap; default: FILE with the extension .NAME.csv instead of .mcap")
+      ->needs(swapped);
+  auto* processes = command
+                        ->add_flag("--processes", options->processes,
+                                   "one process for each component, over DDS; default: one process for all")
+                        ->excludes(swapped);
   command->add_option("--dds", options->vendor, "DDS vendor of the processes")
       ->check(CLI::IsMember({"cyclone", "fastdds"}))
       ->needs(processes)
@@ -202,7 +206,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(0, 100))
       ->needs(processes)
       ->capture_default_str();
-  command->add_flag("--force", options->force, "overwrite the CSV file");
+  command->add_flag("--force", options->force, "overwrite the CSV file")->needs(swapped);
   command->add_flag("--json", options->json, "one JSON object");
   command->footer(
       "Examples: crane replay out/recording.mcap\n"

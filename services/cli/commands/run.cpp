@@ -159,14 +159,16 @@ void require_possible_in_realtime(const RunOptions& options,
                                   const std::vector<experiments::PlannedRun>& plans) {
   std::vector<std::string> problems;
   const auto refuse = [&](bool given, const std::string& option) {
-    if (given) problems.push_back("--clock = realtime: cannot be combined with " + option);
+    const auto problem = "--clock = realtime: cannot be combined with " + option;
+    if (given && std::ranges::find(problems, problem) == problems.end()) problems.push_back(problem);
   };
   refuse(options.compare, "--compare");
   refuse(options.in_process, "--in-process");
   refuse(options.json, "--json");
   refuse(options.twin || !options.twin_rig.empty(), "a twin: crane up --twin");
-  for (const auto& plan : plans)
-    refuse(!plan.variant.empty(), "variant " + plan.variant + " of " + plan.scenario.name);
+  for (const auto& plan : plans)  // --compare adds variants itself
+    refuse(!options.compare && !plan.variant.empty(),
+           "variant " + plan.variant + " of " + plan.scenario.name);
   if (!problems.empty()) throw configuration::ConfigurationError(problems);
 }
 

@@ -72,8 +72,11 @@ std::unique_ptr<tuning::CraneAccess> access_to_crane(const TuneCommand& command,
   if (command.clock == "lockstep") {
     if (command.plant == stack::Plant::hardware)
       throw configuration::ConfigurationError({"--plant hardware: a real crane needs --clock realtime"});
-    return std::make_unique<tuning::LockstepCrane>(
-        command.hidden.empty() ? rig : configuration::load_rig(stack::find_rig(command.hidden)));
+    if (command.hidden.empty()) return std::make_unique<tuning::LockstepCrane>(rig);
+    auto truth = configuration::load_rig(stack::find_rig(command.hidden));
+    if (auto problems = tuning::exchanged_channels(truth, rig); !problems.empty())
+      throw configuration::ConfigurationError(std::move(problems));
+    return std::make_unique<tuning::LockstepCrane>(std::move(truth));
   }
   if (!command.hidden.empty())
     throw configuration::ConfigurationError({"--hidden: only with --clock lockstep"});
