@@ -58,17 +58,6 @@ std::vector<std::string> names_of(const std::vector<Run>& runs) {
 
 }  // namespace
 
-WorkDirectory::WorkDirectory() {
-  auto pattern = (fs::temp_directory_path() / "crane_dashboard_XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + ": cannot be made");
-  path_ = pattern;
-}
-
-WorkDirectory::~WorkDirectory() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 Jobs::Jobs(fs::path program, std::string rig, fs::path directory)
     : program_{std::move(program)}, rig_{std::move(rig)}, directory_{std::move(directory)} {}
 

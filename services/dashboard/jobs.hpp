@@ -13,19 +13,6 @@
 
 namespace crane::dashboard {
 
-/// A temporary directory, deleted with this object.
-class WorkDirectory {
- public:
-  WorkDirectory();  ///< @throws std::runtime_error
-  ~WorkDirectory();
-  WorkDirectory(const WorkDirectory&) = delete;
-  WorkDirectory& operator=(const WorkDirectory&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 class Jobs {
  public:
   enum class State : std::uint8_t { waiting, running, done, failed, cancelled };

@@ -29,7 +29,8 @@ ApiAnswer started(const Jobs::Answer& answer) {
 }  // namespace
 
 RunsApi::RunsApi(const RunsOptions& options)
-    : work_{options.program.empty() ? std::nullopt : std::optional<WorkDirectory>{std::in_place}},
+    : work_{options.program.empty() ? std::nullopt
+                                    : std::optional<files::TemporaryDirectory>{"crane_dashboard"}},
       runs_{options.directory, work_ ? made(work_->path() / "uploads") : std::filesystem::path{}},
       jobs_{options.program, options.rig, work_ ? work_->path() : std::filesystem::path{}},
       starts_{!options.program.empty()} {}

@@ -2,6 +2,7 @@
 /// The paths of the views Runs and Diagnose: recordings of a directory, uploads, reviews and diagnoses.
 #include <optional>
 
+#include "crane/files/temporary_directory.hpp"
 #include "dashboard/api_types.hpp"
 #include "dashboard/jobs.hpp"
 #include "dashboard/runs.hpp"
@@ -34,7 +35,7 @@ class RunsApi {
   [[nodiscard]] ApiAnswer upload(const ApiRequest& request);
   [[nodiscard]] std::vector<Run> runs_named(const nlohmann::json& body, const char* key) const;
 
-  std::optional<WorkDirectory> work_;
+  std::optional<files::TemporaryDirectory> work_;
   Runs runs_;
   Jobs jobs_;
   bool starts_;  ///< true: reviews and diagnoses can be started

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/files/temporary_directory.hpp"
 #include "experiments/realtime_session.hpp"
 #include "experiments/started_rig_file.hpp"
 #include "stack/launch.hpp"
@@ -58,26 +59,6 @@ void wait_until(RealtimeSession& session, std::int64_t time_ns) {
 
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
 
-/// Rig file of one run, in the directory of temporary files.
-class StartedRigFile {
- public:
-  explicit StartedRigFile(const configuration::Rig& rig)
-      : path_{std::filesystem::temp_directory_path() /
-              ("crane_rig_" + std::to_string(::getpid()) + ".toml")} {
-    write_started_rig(path_, rig);
-  }
-  ~StartedRigFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  StartedRigFile(const StartedRigFile&) = delete;
-  StartedRigFile& operator=(const StartedRigFile&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 recording::Table RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
@@ -89,8 +70,10 @@ recording::Table RealtimeRuns::run(const std::filesystem::path& rig_file, const 
         "load hangs at rest, set [start] to the present position, and start the remaining runs");
   auto rig = configuration::load_rig(rig_file);
   rig.start.position = end_->position;
-  const StartedRigFile started{rig};
-  return run_from_start(started.path(), controller, scenario);
+  const files::TemporaryDirectory directory{"crane_run"};
+  const auto started = directory.path() / "rig.toml";
+  write_started_rig(started, rig);
+  return run_from_start(started, controller, scenario);
 }
 
 recording::Table RealtimeRuns::run_from_start(const std::filesystem::path& rig_file,

@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::int64_t kPatience_ns = 10'000'000'000;
 
-std::filesystem::path new_directory() {
-  auto pattern = (std::filesystem::temp_directory_path() / "crane_replay_XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + ": cannot be made");
-  return pattern;
-}
-
 std::string rig_file(const std::filesystem::path& directory, const std::string& text) {
   const auto file = directory / "rig.toml";
   files::write_file(file, text);
@@ -31,10 +25,10 @@ std::string rig_file(const std::filesystem::path& directory, const std::string& 
 ProcessReplay::ProcessReplay(std::vector<runtime::ComponentSpec> components, const RecordedRun& run,
                              const ProcessOptions& options)
     : components_{std::move(components)},
-      directory_{new_directory()},
+      directory_{"crane_replay"},
       launch_{.bus = options.bus,
               .vendors = options.vendors,
-              .rig = rig_file(directory_, run.rig_text()),
+              .rig = rig_file(directory_.path(), run.rig_text()),
               .controller = std::string{run.controller().name},
               .clock = "lockstep",
               .epoch = 1,
@@ -51,11 +45,7 @@ ProcessReplay::ProcessReplay(std::vector<runtime::ComponentSpec> components, con
         return bus_.share(source, epoch);
       }} {}
 
-ProcessReplay::~ProcessReplay() {
-  children_.stop();
-  std::error_code ignored;
-  std::filesystem::remove_all(directory_, ignored);
-}
+ProcessReplay::~ProcessReplay() { children_.stop(); }
 
 template <class Condition>
 void ProcessReplay::until(Condition condition, const std::string& what) {

@@ -1,11 +1,11 @@
 #pragma once
 /// The components of a stack as processes over DDS, in lockstep, in a crane of their own. They receive the
 /// recorded samples of clock master and operators.
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "crane/files/temporary_directory.hpp"
 #include "replay/replayed_stack.hpp"
 #include "stack/child_processes.hpp"
 #include "stack/launch.hpp"
@@ -44,7 +44,7 @@ class ProcessReplay final : public ReplayedStack {
   void until(Condition condition, const std::string& what);
 
   std::vector<runtime::ComponentSpec> components_;
-  std::filesystem::path directory_;  ///< with the rig file
+  files::TemporaryDirectory directory_;  ///< with the rig file
   stack::LaunchOptions launch_;
   stack::ChildProcesses children_;
   bus::Bus bus_;
