@@ -31,6 +31,7 @@ Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms
         command_terms_.push_back(std::move(term));
         break;
       case ActsOn::drive:
+        has_gear_friction_[drive_axis(setting.axis)] |= term->has_gear_friction();
         drive_terms_[drive_axis(setting.axis)].push_back(std::move(term));
         break;
       case ActsOn::load:
@@ -92,12 +93,12 @@ PerAxis Model::free_drives_friction_v(const State& state, const Actuation& actua
 
 double Model::friction_v(const State& state, double drive_v, Axis axis) const noexcept {
   PerAxis sum{};
-  double carried_v = drive_v;
-  for (const auto& term : drive_terms_[axis]) {
-    term->add_friction(state, sum);
-    carried_v -= term->position_force_v(state);
+  for (const auto& term : drive_terms_[axis]) term->add_friction(state, sum);
+  if (has_gear_friction_[axis]) {
+    double carried_v = drive_v;
+    for (const auto& term : drive_terms_[axis]) carried_v -= term->position_force_v(state);
+    for (const auto& term : drive_terms_[axis]) term->add_gear_friction(state, std::abs(carried_v), sum);
   }
-  for (const auto& term : drive_terms_[axis]) term->add_gear_friction(state, std::abs(carried_v), sum);
   for (const auto& structure : structure_terms_) structure.term->relieve_friction(parameters_, state, sum);
   return sum[axis];
 }
@@ -105,7 +106,8 @@ double Model::friction_v(const State& state, double drive_v, Axis axis) const no
 std::array<PerAxis, kAxes> Model::friction_response(const State& state, const Locks& locks,
                                                     const InnerState& inner) const noexcept {
   const Parameters& p = parameters_;
-  const DriveResponse r = drive_response(p, displaced(state, inner), locks);
+  const DriveResponse r =
+      drive_response(p, structure_terms_.empty() ? state : displaced(state, inner), locks);
   const double force_n = p.trolley_inertia_kg * p.trolley_gain_mps2pv,
                torque_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv;
   std::array<PerAxis, kAxes> taken{};
@@ -115,7 +117,6 @@ std::array<PerAxis, kAxes> Model::friction_response(const State& state, const Lo
 }
 
 State Model::displaced(const State& state, const InnerState& inner) const noexcept {
-  if (structure_terms_.empty()) return state;
   std::array<double, kMostInner> positions{}, rates{};
   for (std::size_t i = 0; i < inner_coordinates_; ++i) {
     positions[i] = inner[i].position;
@@ -133,8 +134,7 @@ State Model::displaced(const State& state, const InnerState& inner) const noexce
   return seen;
 }
 
-Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxis& friction,
-                     const InnerState& inner, InnerEquations& equations) const noexcept {
+Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxis& friction) const noexcept {
   const Parameters& p = parameters_;
   const PerAxis& v = actuation.drive_v;
   Forces sum;
@@ -143,25 +143,32 @@ Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxi
   sum.slew_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv * (v[kSlew] - friction[kSlew]) +
                 actuation.brake_effort[kSlew];
   for (const auto& term : load_terms_) term->add_force(p, seen, sum);
-  for (const auto& [term, first] : structure_terms_)
-    term->add_inner_motion(p, seen, &inner[first], sum, &equations[first]);
   return sum;
+}
+
+double Model::hoisting_mps2(const State& state, const Actuation& actuation,
+                            const PerAxis& friction) const noexcept {
+  const double braking_mps2 = actuation.brake_effort[kHoist];
+  if (braking_mps2 != 0) return braking_mps2;
+  const Parameters& p = parameters_;
+  return (p.hoist_gain_mpspv * (actuation.drive_v[kHoist] - friction[kHoist]) - state.cable_mps) /
+         p.hoist_lag_s;
 }
 
 Accelerations Model::accelerations(const State& state, const Actuation& actuation, const PerAxis& friction,
                                    const InnerState& inner,
                                    InnerAccelerations& inner_accelerations) const noexcept {
   const Parameters& p = parameters_;
+  const double hoisting = hoisting_mps2(state, actuation, friction);
+  if (structure_terms_.empty())
+    return plant::accelerations(p, state, forces(state, actuation, friction), hoisting, actuation.locks);
   const State seen = displaced(state, inner);
-  const bool braking = actuation.brake_effort[kHoist] != 0;
-  const double hoisting =
-      braking ? actuation.brake_effort[kHoist]
-              : (p.hoist_gain_mpspv * (actuation.drive_v[kHoist] - friction[kHoist]) - state.cable_mps) /
-                    p.hoist_lag_s;
-  const motion::Angles<double> angles = swing_angles(p, seen);
+  Forces sum = forces(seen, actuation, friction);
   InnerEquations equations{};
-  Accelerations result = plant::accelerations(
-      p, seen, angles, forces(seen, actuation, friction, inner, equations), hoisting, actuation.locks);
+  for (const auto& [term, first] : structure_terms_)
+    term->add_inner_motion(p, seen, &inner[first], sum, &equations[first]);
+  const motion::Angles<double> angles = swing_angles(p, seen);
+  Accelerations result = plant::accelerations(p, seen, angles, sum, hoisting, actuation.locks);
   const auto accelerate = [&] {
     for (std::size_t i = 0; i < inner_coordinates_; ++i)
       if (!actuation.prescribed[i]) inner_accelerations[i] = equations[i].acceleration(result);

@@ -160,7 +160,7 @@ TEST(FixedStepReplay, SwitchesADelayedCommandInsideARow) {
   std::vector<double> out(run.rows());
   const std::array start{0.3, 0.0};
   replay.run(Part::drive, 0, run.rows(), start, out);
-  const Replay::Increments increments = replay.increments_along_measurement(kTrolleyPosition);
+  const Replay::Increments& increments = replay.increments_along_measurement(kTrolleyPosition);
   double way = 0.3, rate = 0;
   for (std::size_t k = 0; k < run.rows(); ++k) {
     ASSERT_NEAR(out[k], run.measured[kTrolleyPosition][k], 1e-9) << "seed " << seed << ", row " << k;

@@ -156,6 +156,38 @@ void Replay::CraneOnRun::warm_up_sensors(plant::Model& sensing, std::size_t row)
   }
 }
 
+Replay::Increments Replay::CraneOnRun::empty_increments(Output axis) const {
+  const std::size_t rows = source.run.rows();
+  return {prescribed_motion(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
+}
+
+void Replay::CraneOnRun::compute_increments() {
+  std::vector<Output> missing;
+  for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
+    if (!source.run.has(axis) || increments[axis]) continue;
+    missing.push_back(axis);
+    increments[axis] = empty_increments(axis);
+  }
+  if (missing.empty()) return;
+  const std::array<bool, kOutputs> none{};
+  std::array<bool, kOutputs> drives{};
+  for (const Output drive : simulated_outputs(source, Part::drive)) drives[drive] = true;
+  StepIntegrator integrator(model, none, locks(drives), source.run.period_s);
+  for (std::size_t row = 0; row + 1 < source.run.rows(); ++row) {
+    if (!inner_at.empty()) integrator.inner = inner_at[row];
+    const MeasuredKinematics middle = measured_mid_row(row);
+    plant::Accelerations accelerations;
+    visit_steps(row, [&](int, const plant::PerAxis& volts, bool changed) {
+      if (changed) {
+        integrator.new_command(volts);
+        accelerations = integrator.accelerations(middle);
+      }
+      for (const Output axis : missing)
+        increments[axis]->add_step(row, acceleration_of(accelerations, axis), step_s());
+    });
+  }
+}
+
 /// Changes of the speeds of the motors from a row to the next row that only impacts explain.
 plant::PerAxis Replay::CraneOnRun::impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const {
   plant::PerAxis unexplained{};
@@ -181,9 +213,7 @@ void Replay::CraneOnRun::simulate_inner_coordinates() {
   StepIntegrator integrator(model, none, locks(none), step_s()), motors(model, none, locks(drives), step_s());
   const std::size_t rows = source.run.rows();
   for (const Output axis : {kTrolleyPosition, kSlewAngle})
-    if (correcting && drives[axis])
-      increments[axis] =
-          Increments{prescribed_motion(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
+    if (correcting && drives[axis]) increments[axis] = empty_increments(axis);
   std::array<RunningMedian, 2> usual;
   integrator.prescribe(measured_at(0));
   for (std::size_t row = 0; row < rows; ++row) {

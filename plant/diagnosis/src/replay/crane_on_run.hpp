@@ -1,6 +1,7 @@
 #pragma once
 /// State of a Replay: commands by step, measured motion with inverted sensor terms, inner coordinates along
 /// that motion.
+#include <mutex>
 #include <optional>
 
 #include "crane/diagnosis/replay.hpp"
@@ -44,6 +45,8 @@ struct Replay::CraneOnRun {
     const auto& all = sensors ? corrected_mid_step : source.mid_step[model.inner_coordinates() > 0 ? 1 : 0];
     return all[row * static_cast<std::size_t>(steps) + static_cast<std::size_t>(step)];
   }
+  /// Sets the increments of the measured drives that simulate_inner_coordinates() has not set.
+  void compute_increments();
   /// Fills the memory of the sensors with the motion before a row.
   void warm_up_sensors(plant::Model& sensing, std::size_t row) const;
   [[nodiscard]] const Motion& prescribed_motion(Output output) const {
@@ -62,9 +65,11 @@ struct Replay::CraneOnRun {
   std::vector<MeasuredKinematics> corrected_mid_step;
   std::vector<plant::InnerState> inner_at;      ///< along the measured motion, by row; empty without any
   std::array<Motion, plant::kMostInner> inner;  ///< of prescribed inner coordinates
-  std::array<std::optional<Increments>, 2> increments;  ///< of drives, with prescribed inner coordinates
+  std::array<std::optional<Increments>, 2> increments;  ///< of the drives along the measured motion
+  std::once_flag increments_known;
 
  private:
+  [[nodiscard]] Increments empty_increments(Output axis) const;
   void invert_sensors();
   void simulate_inner_coordinates();
   [[nodiscard]] plant::PerAxis impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const;

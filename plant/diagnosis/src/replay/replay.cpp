@@ -183,29 +183,9 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
   if (row_times) row_times->interpolate_sensor_errors();
 }
 
-Replay::Increments Replay::increments_along_measurement(Output axis) const {
-  const CraneOnRun& p = *crane_on_run_;
-  if (p.increments[axis]) return *p.increments[axis];
-  const std::array<bool, kOutputs> none{};
-  std::array<bool, kOutputs> drives{};
-  for (const Output drive : simulated_outputs(p.source, Part::drive)) drives[drive] = true;
-  StepIntegrator integrator(p.model, none, p.locks(drives), p.source.run.period_s);
-  const std::size_t rows = p.source.run.rows();
-  const double h = p.step_s();
-  Increments drive{p.prescribed_motion(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
-  for (std::size_t row = 0; row + 1 < rows; ++row) {
-    if (!p.inner_at.empty()) integrator.inner = p.inner_at[row];
-    const MeasuredKinematics middle = p.measured_mid_row(row);
-    double acceleration = 0;
-    p.visit_steps(row, [&](int, const plant::PerAxis& volts, bool changed) {
-      if (changed) {
-        integrator.new_command(volts);
-        acceleration = acceleration_of(integrator.accelerations(middle), axis);
-      }
-      drive.add_step(row, acceleration, h);
-    });
-  }
-  return drive;
+const Replay::Increments& Replay::increments_along_measurement(Output axis) const {
+  std::call_once(crane_on_run_->increments_known, [this] { crane_on_run_->compute_increments(); });
+  return *crane_on_run_->increments[axis];
 }
 
 Replays replays_of(const Runs& runs, const Crane& crane) {

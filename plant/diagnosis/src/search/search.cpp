@@ -48,9 +48,9 @@ class Search {
     request_.progress(0.05, "scores of all candidates");
     // The fitted inaccuracies absorb a part of a missing effect. A fit of this effect beside them then finds
     // too small a value. Effects are therefore also fitted beside the unchanged values of the rig file.
+    record_detection(scores_of(found_.base));
     if (!study_.uncalibrated().inaccuracies.empty()) extend(base_in(study_.uncalibrated()), kFirst);
     extend(found_.base, kFirst);
-    record_detection(scores_of(found_.base));
     Hypotheses& found = found_;
     std::vector<Fitted> level = refit_likeliest();
     if (level.empty()) return finished();
@@ -215,7 +215,9 @@ class Search {
     });
     if (known != scored_.end()) return known->table;
     const std::uint64_t seed = request_.seed + given.effects.size();
-    return scored_.emplace_back(given.effects, given.deviance, study_.score(given.effects, given.train, seed))
+    return scored_
+        .emplace_back(given.effects, given.deviance,
+                      study_.score(given.effects, given.train, seed, probe_slopes_))
         .table;
   }
 
@@ -301,6 +303,7 @@ class Search {
   const Request& request_;
   Hypotheses found_;
   std::vector<Scored> scored_;
+  ProbeSlopes probe_slopes_;
   std::vector<Fitted> tried_;  ///< first fits that have not been refitted
   InitialValues initial_values_{study_};
   std::map<std::size_t, double> p_value_;  ///< of every candidate alone

@@ -156,7 +156,7 @@ Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Dist
   std::vector<MovingStretch> stretches;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r].run.has(axis)) continue;
-    const Replay::Increments drive = crane[r].increments_along_measurement(axis);
+    const Replay::Increments& drive = crane[r].increments_along_measurement(axis);
     for (MovingStretch& stretch : moving_stretches(runs[r], r, axis)) {
       const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
       stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
@@ -185,7 +185,7 @@ std::vector<VectorXd> plain_residuals_of(const Pieces& pieces, const Replays& cr
   std::vector<VectorXd> residuals(pieces.all.size());
   parallel_for(runs.size(), [&](std::size_t r) {
     if (!runs[r].run.has(pieces.output)) return;
-    const Replay::Increments drive = crane[r].increments_along_measurement(pieces.output);
+    const Replay::Increments& drive = crane[r].increments_along_measurement(pieces.output);
     for (std::size_t i = 0; i < residuals.size(); ++i) {
       const Piece& piece = pieces.all[i];
       if (piece.run != r) continue;

@@ -81,6 +81,8 @@ class Problem {
   /// @pre `crane` has the coordinates of `at`
   [[nodiscard]] std::vector<Eigen::VectorXd> plain_change(const Replays& crane, const Fits& at,
                                                           double step) const;
+  /// Whether the crane has other freely oscillating inner coordinates than the crane of `fits`.
+  [[nodiscard]] bool has_other_coordinates(const Replays& crane, const Fits& fits) const;
   /// Whitens plain slopes, start marginal.
   [[nodiscard]] std::vector<Eigen::VectorXd> whitened(const std::vector<Eigen::VectorXd>& plain_slopes,
                                                       const Fits& at) const;
@@ -133,8 +135,6 @@ class Problem {
   /// Fit of a window from the end of the fit before it.
   [[nodiscard]] WindowFit continued_from(const Replay& replay, std::size_t window, const Fits& fits) const;
   void continue_ringing(const Replays& crane, Fits& fits) const;
-  /// Whether the crane has other freely oscillating inner coordinates than the crane of `fits`.
-  [[nodiscard]] bool has_other_coordinates(const Replays& crane, const Fits& fits) const;
   /// Local optimum of the start from one beginning, linearised there.
   [[nodiscard]] WindowFit fit_from(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                                    const Eigen::VectorXd& begin) const;

@@ -9,7 +9,7 @@ namespace crane::diagnosis {
 /// Slopes: changes of the outputs per unit, whitened or plain, by value of the effects and by window or
 /// piece. Empty where the effect is not visible.
 struct Study::Slopes {
-  std::vector<std::vector<Eigen::VectorXd>> drive, equation_error, load;
+  std::vector<PartVectors> drive, equation_error, load;
 
   /// Drops the slopes of all but the first values.
   void keep_first(std::size_t values) {

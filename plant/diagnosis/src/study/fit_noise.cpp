@@ -10,15 +10,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-ShowsIn shown_in(const Effects& effects) {
-  ShowsIn parts;
-  for (const Effect& effect : effects) {
-    parts.drive = parts.drive || effect.candidate->drive;
-    parts.load = parts.load || effect.candidate->load;
-  }
-  return parts;
-}
-
 /// Mean over the windows of the rms error of each.
 std::array<double, kOutputs> mean_errors(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
   std::array<double, kOutputs> errors{};
@@ -74,6 +65,9 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
   const double schwarz = schwarz_over_akaike(fitted.left_out);
   for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
   fitted.penalty = schwarz * sum(fitted.left_out);
+}
+
+void Study::set_sizes(Fitted& fitted) const {
   fitted.error = errors_of(fitted.train);
   fitted.change.clear();
   for (std::size_t i = 0; i < fitted.effects.size(); ++i) fitted.change.push_back(change_by(fitted, i));
@@ -121,6 +115,7 @@ Fitted Study::base_model() const {
   base.train = base_train_;
   base.first_nuisance = nuisance_of(base);
   judge_by_likelihood(base);
+  set_sizes(base);
   return base;
 }
 
@@ -164,6 +159,7 @@ Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
     if (gained < kWorthARound) break;
   }
   whiten_training(best.nuisance);
+  set_sizes(best);
   return best;
 }
 

@@ -163,27 +163,72 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
 }
 
 std::vector<Score> Study::places(const Effects& effects) const {
+  std::vector<std::vector<Shape>> shapes(candidates_.size());
+  parallel_for(candidates_.size(), [&](std::size_t c) {
+    if (std::ranges::none_of(effects, [&](const Effect& e) { return e.candidate == &candidates_[c]; }))
+      shapes[c] = shapes_of(candidates_[c], effects);
+  });
   std::vector<Score> all;
   for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (std::none_of(effects.begin(), effects.end(),
-                     [&](const Effect& effect) { return effect.candidate == &candidates_[c]; }))
-      for (Shape& shape : shapes_of(candidates_[c], effects))
-        all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}, .starts = {}});
+    for (Shape& shape : shapes[c])
+      all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}, .starts = {}});
   return all;
 }
 
-double Study::add_probes(const Effects& effects, const Evaluation& at, const Score& place,
-                         Slopes& slopes) const {
+/// What all probes of a score test have in common.
+struct Study::Probing {
+  const Effects& effects;
+  const Evaluation& at;
+  PartVectors unmoved;      ///< plain residuals of the equation error of `at`
+  ShowsIn unlike_base;  ///< parts in which the effects are visible
+  const ProbeSlopes& known;
+};
+
+double Study::add_ringing(const Replays& crane, const Evaluation& at, double step, ShowsIn parts,
+                          Slopes& slopes) const {
+  double of_drive = 0, of_load = 0;
+  const bool in_drive = parts.drive && !train_.drive.empty();
+  const bool in_load = parts.load && !train_.load.empty();
+  slopes.drive.push_back(in_drive ? train_.drive.change(crane, at.drive, step, &of_drive) : PartVectors{});
+  slopes.equation_error.push_back(in_drive ? train_.equation_error.change(crane, at.equation_error, step)
+                                           : PartVectors{});
+  slopes.load.push_back(in_load ? train_.load.change(crane, at.load, step, &of_load) : PartVectors{});
+  return of_drive + of_load;
+}
+
+double Study::add_probes(const Probing& probing, const Score& place, Slopes& slopes,
+                         std::vector<ProbeSlopes::Known>& fresh) const {
   double own = 0;
   const Shape& shape = place.shape;
   const Candidate& candidate = candidates_[place.candidate];
   // A probe far from zero describes a rough effect in the load but not in the drives.
-  const bool near_by = !candidate.rough || train_.load.empty();
+  const ShowsIn parts{candidate.drive && (!candidate.rough || train_.load.empty()), candidate.load};
+  const Evaluation& at = probing.at;
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
-    Crane crane = with(effects);
-    crane.terms.push_back(shape.probes[p]);
-    own +=
-        add_slope(holding(crane), at, shape.amounts[p], {candidate.drive && near_by, candidate.load}, slopes);
+    const ProbeSlopes::Known* known = probing.known.find(place.candidate, shape.probes[p]);
+    const bool drive_known = known != nullptr && known->drive && !probing.unlike_base.drive;
+    const bool load_known = known != nullptr && known->load && !probing.unlike_base.load;
+    const ShowsIn missing{parts.drive && !drive_known, parts.load && !load_known};
+    PlainSlope slope;
+    if (missing.drive || missing.load) {
+      Crane crane = with(probing.effects);
+      crane.terms.push_back(shape.probes[p]);
+      const Replays replays = replays_of(train_.runs, holding(crane));
+      if (train_.drive.has_other_coordinates(replays, at.drive) ||
+          train_.load.has_other_coordinates(replays, at.load)) {
+        own += add_ringing(replays, at, shape.amounts[p], parts, slopes);
+        continue;
+      }
+      slope = plain_slope(replays, at, shape.amounts[p], missing, probing.unmoved);
+    }
+    ProbeSlopes::Known& now = fresh.emplace_back(ProbeSlopes::Known{shape.probes[p], {}, {}});
+    if (missing.drive && !probing.unlike_base.drive)
+      now.drive = ProbeSlopes::Drive{slope.drive, slope.equation_error};
+    if (missing.load && !probing.unlike_base.load) now.load = slope.load;
+    if (parts.drive && drive_known)
+      slope.drive = known->drive->windows, slope.equation_error = known->drive->equation_error;
+    if (parts.load && load_known) slope.load = *known->load;
+    append_whitened(slope, at, slopes);
   }
   return own;
 }
@@ -208,16 +253,21 @@ std::vector<Visibility> Study::excitation(const std::vector<Score>& places, cons
   return visibility_of(candidates_, places, directions, block_scores(at, all));
 }
 
-ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const {
+ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed,
+                        ProbeSlopes& probe_slopes) const {
   std::vector<Score> scores = places(effects);
   const Slopes known = slopes(effects, at);
+  const Probing probing{effects, at,
+                        train_.equation_error.plain_residuals(replays_of(train_.runs, with(effects))),
+                        shown_in(effects), probe_slopes};
+  std::vector<std::vector<ProbeSlopes::Known>> fresh(scores.size());
   std::vector<Directions> directions(scores.size());
   std::vector<Slopes> kept(effects.empty() ? scores.size() : 0);
   parallel_for(scores.size(), [&](std::size_t i) {
     Slopes all = known;
-    const double own = add_probes(effects, at, scores[i], all);
-    const auto fresh = static_cast<Index>(all.drive.size() - known.drive.size());
-    directions[i] = beside_known(block_scores(at, all), fresh);
+    const double own = add_probes(probing, scores[i], all, fresh[i]);
+    const auto own_directions = static_cast<Index>(all.drive.size() - known.drive.size());
+    directions[i] = beside_known(block_scores(at, all), own_directions);
     const Candidate& candidate = candidates_[scores[i].candidate];
     const bool large_probe = scores[i].shape.large_probe;
     directions[i].one_sided = candidate.one_sided || large_probe;
@@ -230,6 +280,8 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;
     if (effects.empty()) kept[i] = std::move(all);
   });
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    for (ProbeSlopes::Known& of_probe : fresh[i]) probe_slopes.keep(scores[i].candidate, std::move(of_probe));
   ScoreTable table;
   if (effects.empty()) table.excitation = excitation(scores, kept, at);
   double least = 1;

@@ -70,6 +70,15 @@ double difference_step(const FreeParameter& p, double value) {
   return p.high - value > value - p.low ? p.high - value : p.low - value;
 }
 
+ShowsIn shown_in(const Effects& effects) {
+  ShowsIn parts;
+  for (const Effect& effect : effects) {
+    parts.drive = parts.drive || effect.candidate->drive;
+    parts.load = parts.load || effect.candidate->load;
+  }
+  return parts;
+}
+
 Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded, const Accuracy& accuracy)
     : natural_radps_{diagnosis::natural_radps(rig)},
@@ -186,14 +195,10 @@ Evaluation Study::evaluated_again(const Fitted& fitted) const {
 
 Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evaluation& near) const {
   const Replays crane = replays_of(body.runs, with(effects));
-  bool in_drive = false, in_load = false;
-  for (const Effect& effect : effects) {
-    in_drive = in_drive || effect.candidate->drive;
-    in_load = in_load || effect.candidate->load;
-  }
-  return summed(body, in_drive ? body.drive.fit_near(crane, near.drive) : near.drive,
-                in_load ? body.load.fit_near(crane, near.load) : near.load,
-                in_drive ? body.equation_error.residuals(crane) : near.equation_error);
+  const ShowsIn parts = shown_in(effects);
+  return summed(body, parts.drive ? body.drive.fit_near(crane, near.drive) : near.drive,
+                parts.load ? body.load.fit_near(crane, near.load) : near.load,
+                parts.drive ? body.equation_error.residuals(crane) : near.equation_error);
 }
 
 Evaluation Study::train(const Effects& effects) const { return train(effects, base_train_); }
@@ -201,18 +206,24 @@ Evaluation Study::train(const Effects& effects, const Evaluation& near) const {
   return evaluate(train_, effects, near);
 }
 
-double Study::add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
-                        Slopes& slopes) const {
-  double of_drive = 0, of_load = 0;
-  const Replays replays = replays_of(train_.runs, crane);
-  const bool in_drive = parts.drive && !train_.drive.empty();
-  const bool in_load = parts.load && !train_.load.empty();
-  using Changes = std::vector<VectorXd>;
-  slopes.drive.push_back(in_drive ? train_.drive.change(replays, at.drive, step, &of_drive) : Changes{});
-  slopes.equation_error.push_back(in_drive ? train_.equation_error.change(replays, at.equation_error, step)
-                                           : Changes{});
-  slopes.load.push_back(in_load ? train_.load.change(replays, at.load, step, &of_load) : Changes{});
-  return of_drive + of_load;
+PlainSlope Study::plain_slope(const Replays& crane, const Evaluation& at, double step, ShowsIn parts,
+                              const PartVectors& unmoved) const {
+  PlainSlope slope;
+  if (parts.drive && !train_.drive.empty()) {
+    slope.drive = train_.drive.plain_change(crane, at.drive, step);
+    slope.equation_error = train_.equation_error.plain_residuals(crane);
+    for (std::size_t k = 0; k < unmoved.size(); ++k)
+      slope.equation_error[k] = (unmoved[k] - slope.equation_error[k]) / step;
+  }
+  if (parts.load && !train_.load.empty()) slope.load = train_.load.plain_change(crane, at.load, step);
+  return slope;
+}
+
+void Study::append_whitened(const PlainSlope& plain, const Evaluation& at, Slopes& slopes) const {
+  slopes.drive.push_back(plain.drive.empty() ? PartVectors{} : train_.drive.whitened(plain.drive, at.drive));
+  slopes.equation_error.push_back(
+      plain.equation_error.empty() ? PartVectors{} : train_.equation_error.whitened(plain.equation_error));
+  slopes.load.push_back(plain.load.empty() ? PartVectors{} : train_.load.whitened(plain.load, at.load));
 }
 
 BlockScores Study::block_scores(const Evaluation& at, const Slopes& slopes, Loss loss) const {
@@ -224,40 +235,31 @@ BlockScores Study::block_scores(const Evaluation& at, const Slopes& slopes, Loss
 Study::Slopes Study::plain_slopes(const Effects& effects, const Evaluation& at, Slopes known) const {
   const std::size_t first = known.drive.size();
   std::size_t value_index = 0;
-  std::vector<VectorXd> unmoved;
+  PartVectors unmoved;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const Candidate& candidate = *effects[e].candidate;
-    const bool in_drive = candidate.drive && !train_.drive.empty();
-    const bool in_load = candidate.load && !train_.load.empty();
     for (std::size_t i = 0; i < candidate.parameters.size(); ++i, ++value_index) {
       if (value_index < first) continue;
-      if (in_drive && unmoved.empty())
+      if (candidate.drive && unmoved.empty())
         unmoved = train_.equation_error.plain_residuals(replays_of(train_.runs, with(effects)));
       Effects moved = effects;
       double& value = moved[e].values[i];
       const double step = difference_step(candidate.parameters[i], value);
       value += step;
-      const Replays crane = replays_of(train_.runs, with(moved));
-      std::vector<VectorXd> of_pieces;
-      if (in_drive) of_pieces = train_.equation_error.plain_residuals(crane);
-      for (std::size_t k = 0; k < of_pieces.size(); ++k) of_pieces[k] = (unmoved[k] - of_pieces[k]) / step;
-      using Changes = std::vector<VectorXd>;
-      known.drive.push_back(in_drive ? train_.drive.plain_change(crane, at.drive, step) : Changes{});
-      known.equation_error.push_back(std::move(of_pieces));
-      known.load.push_back(in_load ? train_.load.plain_change(crane, at.load, step) : Changes{});
+      PlainSlope slope = plain_slope(replays_of(train_.runs, with(moved)), at, step,
+                                     {candidate.drive, candidate.load}, unmoved);
+      known.drive.push_back(std::move(slope.drive));
+      known.equation_error.push_back(std::move(slope.equation_error));
+      known.load.push_back(std::move(slope.load));
     }
   }
   return known;
 }
 
 Study::Slopes Study::whitened(const Slopes& plain, const Evaluation& at) const {
-  Slopes result = plain;
-  for (std::vector<VectorXd>& of_value : result.drive)
-    if (!of_value.empty()) of_value = train_.drive.whitened(of_value, at.drive);
-  for (std::vector<VectorXd>& of_value : result.equation_error)
-    if (!of_value.empty()) of_value = train_.equation_error.whitened(of_value);
-  for (std::vector<VectorXd>& of_value : result.load)
-    if (!of_value.empty()) of_value = train_.load.whitened(of_value, at.load);
+  Slopes result;
+  for (std::size_t i = 0; i < plain.drive.size(); ++i)
+    append_whitened({plain.drive[i], plain.equation_error[i], plain.load[i]}, at, result);
   return result;
 }
 

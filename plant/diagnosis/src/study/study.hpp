@@ -12,6 +12,7 @@
 #include "robust.hpp"
 #include "shooting/equation_error.hpp"
 #include "shooting/problem.hpp"
+#include "study/probe_slopes.hpp"
 
 namespace crane::diagnosis {
 
@@ -76,6 +77,9 @@ struct Fitted {
 struct ShowsIn {
   bool drive = false, load = false;
 };
+
+/// Parts in which any of the effects is visible.
+[[nodiscard]] ShowsIn shown_in(const Effects& effects);
 
 /// Score test of one candidate in one shape.
 struct Score {
@@ -154,7 +158,9 @@ class Study {
   /// @param near  evaluation of some of the effects; gives the initial starts of the windows
   [[nodiscard]] Evaluation train(const Effects& effects, const Evaluation& near) const;
   /// Tests every further candidate on the residuals `at`. @param seed  of the sign flips
-  [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
+  /// @param known  slopes of earlier tests; receives those of this one
+  [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed,
+                                 ProbeSlopes& known) const;
   /// Shapes of a candidate. For a wave: the strongest lines of the missing force beside the effects.
   [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Least squares over the training data from the given values, within bounds.
@@ -228,19 +234,28 @@ class Study {
   /// Scores of directions around `at`.
   [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
                                          Loss loss = Loss::robust) const;
-  /// Appends the changes of the residuals per unit of the last effect of `crane`, in the given parts.
-  /// @return decrease of the loss by free starts of the inner coordinates of the effect
-  double add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
-                   Slopes& slopes) const;
+  /// Plain slopes of a crane that differs from that of `at` by `step`. @param unmoved plain residuals of the
+  /// equation error of `at`; used if the drive is among the parts
+  [[nodiscard]] PlainSlope plain_slope(const Replays& crane, const Evaluation& at, double step, ShowsIn parts,
+                                       const PartVectors& unmoved) const;
+  /// Appends whitened slopes.
+  void append_whitened(const PlainSlope& plain, const Evaluation& at, Slopes& slopes) const;
   /// Smallest visible amount of each candidate. @param slopes  by place, of its probes
   [[nodiscard]] std::vector<Visibility> excitation(const std::vector<Score>& places,
                                                    const std::vector<Slopes>& slopes,
                                                    const Evaluation& at) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
+  struct Probing;
   /// Appends the changes of the residuals by the probes of a candidate's shape.
+  /// @param fresh  receives slopes that were not known
   /// @return decrease of the loss by free starts of the inner coordinates of the candidate
-  double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
+  double add_probes(const Probing& probing, const Score& place, Slopes& slopes,
+                    std::vector<ProbeSlopes::Known>& fresh) const;
+  /// Appends the slopes of a probe with inner coordinates that the crane of `at` does not have, and whose
+  /// starts are free. @return decrease of the loss by these starts
+  double add_ringing(const Replays& crane, const Evaluation& at, double step, ShowsIn parts,
+                     Slopes& slopes) const;
   /// Evaluation of the base crane.
   [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;
   /// Evaluation of a fit in the present noise.
@@ -261,8 +276,10 @@ class Study {
   [[nodiscard]] std::array<double, kOutputs> errors_of(const Evaluation& at) const;
   /// Rms change of the outputs in windows when `effect` is omitted, from the starts of the fit, m or rad.
   [[nodiscard]] std::array<double, kOutputs> change_by(const Fitted& fitted, std::size_t effect) const;
-  /// Sets noise, deviance and sizes in the present noise.
+  /// Sets noise and deviance in the present noise.
   void judge_by_likelihood(Fitted& fitted) const;
+  /// Sets the errors of a fit, and the changes by its effects. @pre its nuisance parameters are present
+  void set_sizes(Fitted& fitted) const;
 
   double natural_radps_;
   Crane base_;

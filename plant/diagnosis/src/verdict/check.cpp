@@ -66,7 +66,8 @@ Check check(const configuration::Rig& rig, std::vector<Run> train, const Request
   study.learn_disturbance();
   request.progress(0.3, "what the data show");
   Check result;
-  result.excitation = study.score({}, study.base_train(), request.seed).excitation;
+  ProbeSlopes slopes;
+  result.excitation = study.score({}, study.base_train(), request.seed, slopes).excitation;
   const Disturbances disturbances = disturbances_of(study);
   std::size_t proposals = 0;
   for (const auto& [a, b] : questions(result.excitation)) {

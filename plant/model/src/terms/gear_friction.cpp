@@ -11,6 +11,7 @@ class GearFriction final : public Term {
         share_(s.parameters.at("share")),
         smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
+  [[nodiscard]] bool has_gear_friction() const noexcept override { return true; }
   void add_gear_friction(const State& state, double carried_v, PerAxis& friction_v) const noexcept override {
     friction_v[axis_] += share_ * carried_v * smooth_sign(speed(state, axis_), smoothing_speed_);
   }

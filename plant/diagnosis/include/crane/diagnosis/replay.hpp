@@ -95,7 +95,7 @@ class Replay {
     }
   };
   /// @pre the axis is measured
-  [[nodiscard]] Increments increments_along_measurement(Output axis) const;
+  [[nodiscard]] const Increments& increments_along_measurement(Output axis) const;
 
  private:
   struct CraneOnRun;

@@ -93,9 +93,13 @@ class Model {
     std::size_t first = 0;  ///< index of the first inner coordinate of the term
   };
   void add_structure(std::unique_ptr<Term> term);
+  /// The state at the suspension point of the load.
   [[nodiscard]] State displaced(const State& state, const InnerState& inner) const noexcept;
-  [[nodiscard]] Forces forces(const State& seen, const Actuation& actuation, const PerAxis& friction_v,
-                              const InnerState& inner, InnerEquations& equations) const noexcept;
+  /// Forces of drives, brakes and load terms.
+  [[nodiscard]] Forces forces(const State& seen, const Actuation& actuation,
+                              const PerAxis& friction_v) const noexcept;
+  [[nodiscard]] double hoisting_mps2(const State& state, const Actuation& actuation,
+                                     const PerAxis& friction_v) const noexcept;
 
   Parameters parameters_;
   double period_s_;
@@ -103,6 +107,7 @@ class Model {
   Displacement rest_displacement_;
   std::vector<std::unique_ptr<Term>> command_terms_;
   std::array<std::vector<std::unique_ptr<Term>>, kAxes> drive_terms_;  ///< by the axis they act on
+  std::array<bool, kAxes> has_gear_friction_{};                        ///< any of the drive terms has it
   std::vector<std::unique_ptr<Term>> load_terms_;
   std::vector<Structure> structure_terms_;
   std::vector<std::unique_ptr<Term>> sensor_terms_;

@@ -62,6 +62,8 @@ class Term {
   /// Drive terms: force that depends on the position only, in volts of the amplifier, positive along the
   /// axis. A term with such a force subtracts it in add_friction.
   [[nodiscard]] virtual double position_force_v(const State& /*state*/) const noexcept { return 0; }
+  /// Drive terms: true if add_gear_friction() adds friction.
+  [[nodiscard]] virtual bool has_gear_friction() const noexcept { return false; }
   /// Drive terms: adds friction that grows with the force in the gear.
   /// @param carried_v  |V - P| [V], V the output of the amplifier, P the sum of the forces that depend on the
   ///   position, for example a weight that the gear holds against the motor
