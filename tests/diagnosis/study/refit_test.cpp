@@ -1,4 +1,5 @@
-/// Refits of hypotheses with their own noise, on data of a crane that shares no code with the model.
+/// Refits of hypotheses with their own noise, and slopes that score tests share, on data of a crane that
+/// shares no code with the model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,16 +23,29 @@ Runs two_runs(const strange::Gantry& crane, const configuration::Rig& rig) {
   return runs;
 }
 
+strange::Gantry crane_with_drag() {
+  strange::Gantry crane;
+  crane.gain_mps2pv *= 1.015;
+  crane.cable_m *= 0.99;
+  crane.drag_nspm = 3;
+  return crane;
+}
+
+/// Largest relative difference of the statistics of two score tests, among the significant candidates.
+double largest_difference(const ScoreTable& a, const ScoreTable& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.best.size(); ++i)
+    if (std::min(a.best[i].p_value, b.best[i].p_value) < 0.01)
+      largest = std::max(largest, std::abs(a.best[i].statistic / b.best[i].statistic - 1));
+  return largest;
+}
+
 /// A first fit keeps the gain and the cable length that the base model fitted without the drag, and its noise
 /// model describes their errors as a disturbance. One round of fit and noise does not remove both.
 TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
   constexpr double kLimit = 2;
   const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
-  strange::Gantry crane;
-  crane.gain_mps2pv *= 1.015;
-  crane.cable_m *= 0.99;
-  crane.drag_nspm = 3;
-  const Runs train = two_runs(crane, rig), none;
+  const Runs train = two_runs(crane_with_drag(), rig), none;
   Study study(rig, train, none, {}, kUsualAccuracy);
   study.learn_disturbance();
   const auto drag = std::ranges::find(study.candidates(), std::string{"viscous_friction"}, &Candidate::cause);
@@ -41,6 +55,34 @@ TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
   again.first_nuisance = once.nuisance;
   again = study.refit_with_own_noise(again);
   EXPECT_LT(sum(once.deviance) - sum(again.deviance), 2 * kLimit) << "minus twice the log likelihood";
+}
+
+/// The base model with the values of the rig file and the hypothesis of a drag use slopes of the calibrated
+/// base model. A table with its own slopes has nearly the same statistics.
+TEST(ProbeSlopes, OfOneScoreTestServeLaterOnes) {
+  constexpr double kSmall = 0.1;
+  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
+  const Runs train = two_runs(crane_with_drag(), rig), none;
+  Study study(rig, train, none, {}, kUsualAccuracy);
+  study.learn_disturbance();
+  ProbeSlopes known;
+  const ScoreTable first = study.score({}, study.base_train(), 1, known);
+  EXPECT_EQ(largest_difference(first, study.score({}, study.base_train(), 1, known)), 0);
+
+  const auto drag = std::ranges::find(study.candidates(), std::string{"viscous_friction"}, &Candidate::cause);
+  ASSERT_NE(drag, study.candidates().end());
+  const Fitted with_drag =
+      study.refit_with_own_noise(study.first_fit({{&*drag, {0.02}}}, study.base_model()));
+  ProbeSlopes own;
+  EXPECT_LT(largest_difference(study.score(with_drag.effects, with_drag.train, 1, known),
+                               study.score(with_drag.effects, with_drag.train, 1, own)),
+            kSmall);
+
+  study.whiten_with(study.uncalibrated());
+  own = {};
+  EXPECT_LT(largest_difference(study.score({}, study.base_train(), 1, known),
+                               study.score({}, study.base_train(), 1, own)),
+            kSmall);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "quantile.hpp"
+#include "replay/standstill.hpp"
 #include "rules.hpp"
 #include "search/parts.hpp"
 #include "study/inaccuracies.hpp"
@@ -36,6 +37,22 @@ bool is_error_of_zero(const Study& study, const Effect& effect) {
   const Output output = effect.candidate->axis == axis_of(kRadialSwing) ? kRadialSwing : kTangentialSwing;
   const double half_a_resolution = std::sqrt(3.0) * study.zero_std_dev(output);
   return std::abs(effect.values[0]) <= half_a_resolution;
+}
+
+/// Sums of squares of the differences between the accelerations of two cranes along the measured motion, by
+/// axis [m2/s4 or rad2/s4]. Rows in which the axis rests are left out: static friction takes any value there.
+std::array<double, 2> acceleration_squares(const Runs& runs, const Replays& a, const Replays& b) {
+  std::array<double, 2> squares{};
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const Output axis : simulated_outputs(runs[r], Part::drive)) {
+      const std::vector<double>& rate = runs[r].motion[axis].rate;
+      const std::vector<double>&of_a = a[r].increments_along_measurement(axis).speed_change,
+            &of_b = b[r].increments_along_measurement(axis).speed_change;
+      for (std::size_t row = 0; row < rate.size(); ++row)
+        if (std::abs(rate[row]) >= kStandstillSpeed)
+          squares[axis] += std::pow((of_a[row] - of_b[row]) / runs[r].run.period_s, 2);
+    }
+  return squares;
 }
 
 }  // namespace
@@ -93,20 +110,31 @@ std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted
     if (part->empty()) continue;
     const std::size_t first = part == &study.whole_runs() ? kOutputs : 0;
     const Problem plain = part->plain();
-    const auto changes = [&](const Crane& crane, const Fits& at) {
+    const auto changes = [&](const Replays& crane, const Fits& at) {
       Changes squares{};
-      const std::vector<double> of_outputs = plain.squares_changed(replays_of(plain.runs(), crane), at);
+      const std::vector<double> of_outputs = plain.squares_changed(crane, at);
       for (std::size_t i = 0; i < of_outputs.size(); ++i) squares[first + plain.outputs()[i]] = of_outputs[i];
       return squares;
     };
-    const Fits of_rig_file = plain.fit(replays_of(plain.runs(), rig_file));
+    const auto add_accelerations = [&](const Replays& changed, const Replays& unchanged, Changes& squares) {
+      if (part != &study.drive()) return;
+      const auto of_axes = acceleration_squares(plain.runs(), changed, unchanged);
+      std::ranges::copy(of_axes, squares.begin() + 2 * kOutputs);
+    };
+    const Replays replays_of_rig_file = replays_of(plain.runs(), rig_file);
+    const Fits of_rig_file = plain.fit(replays_of_rig_file);
     for (const Crane& crane : inaccurate) {
-      const Changes by_inaccuracy = changes(crane, of_rig_file);
+      const Replays replays = replays_of(plain.runs(), crane);
+      Changes by_inaccuracy = changes(replays, of_rig_file);
+      add_accelerations(replays, replays_of_rig_file, by_inaccuracy);
       for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], by_inaccuracy[i]);
     }
-    const Fits of_extended = plain.fit(replays_of(plain.runs(), extended));
+    const Replays replays_of_extended = replays_of(plain.runs(), extended);
+    const Fits of_extended = plain.fit(replays_of_extended);
     for (std::size_t i = 0; i < effects.size(); ++i) {
-      const Changes of_part = changes(without_each[i], of_extended);
+      const Replays replays = replays_of(plain.runs(), without_each[i]);
+      Changes of_part = changes(replays, of_extended);
+      add_accelerations(replays, replays_of_extended, of_part);
       for (std::size_t k = 0; k < of_part.size(); ++k) by_effect[i][k] += of_part[k];
     }
   }

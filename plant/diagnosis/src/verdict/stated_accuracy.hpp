@@ -23,7 +23,8 @@ class StatedAccuracy {
   /// within the accuracy when it changes the simulation of no output more than the largest stated inaccuracy
   /// of a drive, a position or the swing scale changes the simulation of the rig file, or when it is a swing
   /// offset of at most half a resolution of the sensor. A change is an rms in the windows of the training
-  /// data and, for a swing, over whole runs, from the same starts.
+  /// data and, for a swing, over whole runs, from the same starts; for a drive also the rms of its
+  /// acceleration along the measured motion, because the position hides a force that alternates quickly.
   /// @param fitted with std_dev from with_intervals()
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
@@ -39,8 +40,9 @@ class StatedAccuracy {
   [[nodiscard]] bool is_stated(const Candidate& candidate) const { return !limits_of(candidate).empty(); }
 
  private:
-  /// Sums of squares [m2 or rad2] by output: in windows, then over whole runs (swing only).
-  using Changes = std::array<double, 2 * kOutputs>;
+  /// Sums of squares by output: in windows [m2 or rad2], then over whole runs (swing only), then of the
+  /// accelerations of the drives along the measured motion [m2/s4 or rad2/s4].
+  using Changes = std::array<double, 2 * kOutputs + 2>;
 
   /// Stated accuracy of the leading parameters; empty if its quantity has none.
   [[nodiscard]] std::vector<double> limits_of(const Candidate& candidate) const;
