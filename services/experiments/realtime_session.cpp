@@ -61,11 +61,12 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
 
 void RealtimeSession::end_if_stopped(const msg::SupervisorStatus& status) {
   if (!ends_at_stops_) return;
-  const bool by_operator =
-      status.cause == crane_CAUSE_OPERATOR_STOP || status.cause == crane_CAUSE_OPERATOR_ESTOP;
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
+  const bool routine = cause == supervisor::Cause::none || supervisor::is_routine(cause);
+  const bool stopping = status.state >= crane_STATE_STOP_C1;  // STOP_C1, STOP_C0, ESTOP, FAULT
   const bool armed = status.state == crane_STATE_HOLD || status.state == crane_STATE_RUN;
   was_in_hold_ = was_in_hold_ || armed;
-  if (by_operator || (was_in_hold_ && !armed))
+  if (stopping || !routine || (was_in_hold_ && !armed))
     throw SessionError("the crane was stopped: " + in_words(status));
 }
 
@@ -111,8 +112,12 @@ void RealtimeSession::request(const stack::OperatorRequest& wanted, const std::s
 /// this second.
 void RealtimeSession::request_with_patience(const stack::OperatorRequest& wanted, const std::string& what) {
   constexpr int kTries = 30;
+  // The supervisor also accepts a reset in ESTOP. take() ends the session there, and after a stop whose cause
+  // is not a routine one.
+  const bool needs_locked = ends_at_stops_ && wanted.kind == crane_REQUEST_RESET;
   std::string refusal;
   for (int i = 0; i < kTries; ++i) {
+    if (needs_locked) wait_for(crane_STATE_LOCKED, std::chrono::seconds{5});
     refusal = refusal_of(wanted, what);
     if (refusal.empty()) return;
     wait(std::chrono::milliseconds{300});

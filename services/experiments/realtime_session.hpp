@@ -25,7 +25,8 @@ class RealtimeSession {
   /// Sends a request and waits for the supervisor's answer. @throws SessionError when refused
   void request(const stack::OperatorRequest& wanted, const std::string& what);
   /// Repeats a refused request for up to 9 s, because a reset needs causes that have been inactive for a
-  /// second. @throws SessionError after the last refusal
+  /// second. After end_at_stops(), each try of a reset waits for LOCKED. @throws SessionError after the last
+  /// refusal
   void request_with_patience(const stack::OperatorRequest& wanted, const std::string& what);
   /// Leads the crane from LOCKED to HOLD: reset, then arm. @throws SessionError
   void arm();
@@ -40,7 +41,8 @@ class RealtimeSession {
   bool wait_for_rest(std::chrono::milliseconds patience);
   /// Waits for `duration`.
   void wait(std::chrono::nanoseconds duration);
-  /// From now on, requests and waits throw SessionError when an operator stops the crane, and when any cause
+  /// From now on, requests and waits throw SessionError when the crane is stopping, in ESTOP or in FAULT,
+  /// when a cause other than a routine one (supervisor::is_routine()) has stopped it, and when any cause
   /// stops it after it was in HOLD: a program must not reset what it did not stop.
   void end_at_stops() { ends_at_stops_ = true; }
   /// Disarms the crane and waits until its brakes close. Afterwards, stops end nothing. @throws SessionError

@@ -120,12 +120,6 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
 }
 
-/// Causes of a stop that no fault required. Programs reset such stops by themselves.
-bool is_routine(Cause cause) {
-  return cause == Cause::start || cause == Cause::homed || cause == Cause::operator_disarm ||
-         cause == Cause::idle;
-}
-
 /// A stop of the operator during or after a routine stop becomes its cause: a program that would reset the
 /// routine stop sees that the crane must stay.
 void note_operator_stop(const Inputs& in, Memory& m) {

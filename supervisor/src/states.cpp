@@ -31,6 +31,10 @@ constexpr std::array<FailureEntry, kHomingFailures> kFailures{{
 
 const char* name_of(State state) noexcept { return kStateNames[static_cast<std::size_t>(state)]; }
 const char* name_of(Cause cause) noexcept { return kCauseNames[static_cast<std::size_t>(cause)]; }
+bool is_routine(Cause cause) noexcept {
+  return cause == Cause::start || cause == Cause::homed || cause == Cause::operator_disarm ||
+         cause == Cause::idle;
+}
 const char* name_of(HomingFailure failure) noexcept {
   return kFailures[static_cast<std::size_t>(failure)].name;
 }

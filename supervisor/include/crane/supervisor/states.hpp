@@ -69,6 +69,10 @@ enum class Reaction : std::uint8_t {
 /// Action of the operator, from the rule table (rules.hpp); never empty.
 [[nodiscard]] const char* remedy_for(Cause cause) noexcept;
 
+/// True for the causes of a stop that no fault required: START, HOMED, OPERATOR_DISARM and IDLE. Only after
+/// such a stop may a program reset the crane by itself.
+[[nodiscard]] bool is_routine(Cause cause) noexcept;
+
 /// "MARK_STUCK" and the remedy; empty for none.
 [[nodiscard]] const char* name_of(HomingFailure failure) noexcept;
 [[nodiscard]] const char* remedy_for(HomingFailure failure) noexcept;

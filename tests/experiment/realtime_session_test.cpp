@@ -1,0 +1,119 @@
+// A session resets the crane only after a routine stop. A scripted supervisor answers over the memory bus.
+#include "experiments/realtime_session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "crane/runtime/node.hpp"
+#include "crane/runtime/process.hpp"
+#include "crane/supervisor/states.hpp"
+
+namespace crane::experiments {
+namespace {
+
+bus::Options options_on(const std::shared_ptr<bus::MemoryNetwork>& network, const char* name,
+                        crane_Source source) {
+  bus::Options options;
+  options.vendor = bus::Vendor::memory;
+  options.network = network;
+  options.participant = name;
+  options.source = source;
+  return options;
+}
+
+/// Publishes LOCKED until a first reset arrives, refuses this reset, and then publishes `stopped`. Accepts
+/// each later reset, as the supervisor does in ESTOP.
+class ScriptedSupervisor {
+ public:
+  ScriptedSupervisor(const std::shared_ptr<bus::MemoryNetwork>& network, crane_SupervisorState stopped_state,
+                     crane_Cause stopped_cause)
+      : bus_{options_on(network, "supervisor", crane_SOURCE_SUPERVISOR)},
+        stopped_state_{stopped_state},
+        stopped_cause_{stopped_cause},
+        thread_{[this] { run(); }} {}
+  ~ScriptedSupervisor() { end(); }
+  void end() {
+    ends_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  [[nodiscard]] int resets() const { return resets_; }
+  [[nodiscard]] int arms() const { return arms_; }
+
+ private:
+  void run() {
+    while (!ends_) {
+      msg::SupervisorStatus status{};
+      status.header.tick = ++tick_;
+      status.header.sample_time_ns = runtime::monotonic_ns();
+      status.state = resets_ > 1 ? crane_STATE_READY : resets_ == 1 ? stopped_state_ : crane_STATE_LOCKED;
+      status.cause = resets_ > 1 ? crane_CAUSE_NONE : resets_ == 1 ? stopped_cause_ : crane_CAUSE_START;
+      EXPECT_TRUE(statuses_.publish(status));
+      bus_.wait(std::chrono::milliseconds{10});
+      while (const auto request = requests_.take()) answer(*request);
+    }
+  }
+  void answer(const msg::Request& request) {
+    msg::Reply reply{};
+    reply.request_id = request.id;
+    runtime::assign(reply.client, request.client);
+    runtime::assign(reply.reason, "a limit switch is pressed");
+    if (request.kind == crane_REQUEST_RESET) reply.accepted = ++resets_ > 1;
+    if (request.kind == crane_REQUEST_ARM) ++arms_;
+    EXPECT_TRUE(replies_.publish(reply));
+  }
+
+  bus::Bus bus_;
+  bus::Subscriber<msg::Request> requests_ = bus_.subscriber(topics::request);
+  bus::Subscriber<msg::Request> requests_of_a_recorder_ = bus_.subscriber(topics::request);
+  bus::Publisher<msg::Reply> replies_ = bus_.publisher(topics::reply);
+  bus::Publisher<msg::SupervisorStatus> statuses_ = bus_.publisher(topics::supervisor);
+  crane_SupervisorState stopped_state_;
+  crane_Cause stopped_cause_;
+  std::uint64_t tick_ = 0;
+  std::atomic<int> resets_ = 0, arms_ = 0;
+  std::atomic<bool> ends_ = false;
+  std::thread thread_;
+};
+
+struct Stop {
+  crane_SupervisorState state;
+  crane_Cause cause;
+  const char* text;
+};
+
+class SessionBeforeItsFirstReset : public testing::TestWithParam<Stop> {};
+
+TEST_P(SessionBeforeItsFirstReset, EndsAtAStopThatIsNotRoutineAndDoesNotResetIt) {
+  const auto network = bus::make_memory_network();
+  ScriptedSupervisor supervisor{network, GetParam().state, GetParam().cause};
+  bus::Bus bus{options_on(network, "session", crane_SOURCE_OPERATOR)};
+  RealtimeSession session{bus, [] {}};
+  session.end_at_stops();
+  try {
+    session.arm();
+    ADD_FAILURE() << "the session armed the crane";
+  } catch (const SessionError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(GetParam().text));
+  }
+  supervisor.end();
+  EXPECT_EQ(supervisor.resets(), 1);
+  EXPECT_EQ(supervisor.arms(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    By, SessionBeforeItsFirstReset,
+    testing::Values(
+        Stop{crane_STATE_ESTOP, crane_CAUSE_ESTOP_INPUT, "ESTOP because of ESTOP_INPUT"},
+        Stop{crane_STATE_FAULT, crane_CAUSE_RELAY_DID_NOT_OPEN, "FAULT because of RELAY_DID_NOT_OPEN"},
+        Stop{crane_STATE_LOCKED, crane_CAUSE_BRIDGE_RESTARTED, "LOCKED because of BRIDGE_RESTARTED"},
+        Stop{crane_STATE_LOCKED, crane_CAUSE_OPERATOR_STOP, "LOCKED because of OPERATOR_STOP"}),
+    [](const auto& test) {
+      return std::string{crane::supervisor::name_of(static_cast<crane::supervisor::Cause>(test.param.cause))};
+    });
+
+}  // namespace
+}  // namespace crane::experiments
