@@ -1,7 +1,5 @@
 #include "crane/boards/rig_lines.hpp"
 
-#include <cmath>
-
 namespace crane::bridge {
 namespace {
 
@@ -31,19 +29,6 @@ std::uint32_t RigLines::outputs(const Outputs& outputs) const noexcept {
   for (std::size_t i = 0; i < kDrives; ++i)
     if (present_[i] && outputs.brake_release[i]) levels |= bit_of(wiring_.drives[i].brake_release_output);
   return levels;
-}
-
-std::array<std::int32_t, kCounters> start_counts(const configuration::Rig& rig) {
-  std::array<double, kCounters> start{rig.start.position[0], rig.start.position[1], rig.start.position[2],
-                                      rig.start.swing_radial_rad, rig.start.swing_tangential_rad};
-  for (std::size_t i = 0; i < kDrives; ++i)
-    if (rig.drives[i].homes()) start[i] = rig.drives[i].unhomed_position();
-  std::array<std::int32_t, kCounters> counts{};
-  for (std::size_t i = 0; i < kCounters; ++i)
-    counts[i] = static_cast<std::int32_t>(
-        std::llround(rig.encoders[i].sign * (start[i] + rig.encoders[i].rest_angle_rad) *
-                     rig.encoders[i].counts_per_unit));
-  return counts;
 }
 
 }  // namespace crane::bridge

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "crane/bridge/start_counts.hpp"
+
 namespace crane::bridge {
 
 std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
   constexpr std::int64_t kRange = 1 << 24;
-  if (!started_) {
-    started_ = true;
-    counts_ = raw_counts;
-    return counts_;
-  }
   std::int64_t change = (raw_counts - counts_) % kRange;  // the counter shows counts_ modulo 2^24
   if (change >= kRange / 2) change -= kRange;
   if (change < -kRange / 2) change += kRange;
@@ -18,8 +15,9 @@ std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
 }
 
 Coordinate::Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
-                       bool filter_position)
-    : units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
+                       bool filter_position, std::int64_t start)
+    : unwrapper_{start},
+      units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
       rest_{encoder.rest_angle_rad},
       filter_position_{filter_position},
       low_pass_{control::butterworth_low_pass(cut_off_ratio)},
@@ -59,18 +57,22 @@ namespace {
 
 /// The rig file selects the axes whose position is filtered before the differentiation: on the Virginia Tech
 /// rig, this filter makes the trolley oscillate (section 4.4.1). The rates of the swing are always filtered.
-Coordinate coordinate(const configuration::Rig& rig, std::size_t counter) {
+Coordinate coordinate(const configuration::Rig& rig, std::size_t counter, std::int64_t start) {
   const bool swing = counter >= plant::kAxes;
   const bool filtered = swing || rig.sensing.filter_speed[counter];
   return {rig.encoders[counter], rig.period_s, filtered ? rig.sensing.swing_filter_ratio : 0.0,
-          swing && rig.sensing.filter_swing_angle};
+          swing && rig.sensing.filter_swing_angle, start};
 }
 
 }  // namespace
 
 MeasurementPipeline::MeasurementPipeline(const configuration::Rig& rig)
-    : coordinates_{coordinate(rig, 0), coordinate(rig, 1), coordinate(rig, 2), coordinate(rig, 3),
-                   coordinate(rig, 4)} {}
+    : MeasurementPipeline{rig, start_counts(rig)} {}
+
+MeasurementPipeline::MeasurementPipeline(const configuration::Rig& rig,
+                                         const std::array<std::int64_t, kCounters>& start)
+    : coordinates_{coordinate(rig, 0, start[0]), coordinate(rig, 1, start[1]), coordinate(rig, 2, start[2]),
+                   coordinate(rig, 3, start[3]), coordinate(rig, 4, start[4])} {}
 
 control::Measurement MeasurementPipeline::step(const std::array<std::int32_t, kCounters>& raw_counts,
                                                const Latched& latched) noexcept {

@@ -205,6 +205,19 @@ TEST_P(Conformance, CountsThroughTheWrapOf24BitsInBothDirections) {
   EXPECT_EQ(wraps, 2);
 }
 
+/// The counts at the start exceed the range of a 24-bit counter.
+TEST_P(Conformance, BeginsAtTheStartOfTheRigFileBeyond24Bits) {
+  for (const int sign : {1, -1}) {
+    rig_.encoders[0].counts_per_unit = 3e8;
+    rig_.encoders[0].sign = sign;
+    put_on_bench(rig_);
+    MeasurementPipeline pipeline{rig_};
+    const auto measured = pipeline.step(subject_->board().read().raw_counts);
+    EXPECT_NEAR(measured.position[0], rig_.start.position[0], 1e-8);
+    EXPECT_NEAR(measured.position[0], subject_->crane().truth().trolley_m, 1e-8);
+  }
+}
+
 TEST_P(Conformance, ReadsTheSameTwiceWhileNothingMoves) {
   get_going();
   EXPECT_EQ(subject_->board().read().raw_counts, subject_->board().read().raw_counts);

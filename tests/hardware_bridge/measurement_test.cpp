@@ -27,6 +27,44 @@ TEST(CountUnwrapper, ContinuesA24BitCounterThroughAnyNumberOfWraps) {
   }
 }
 
+TEST(CountUnwrapper, BeginsAtTheValueNearestToTheStart) {
+  CountUnwrapper unwrapper{18'015'748};  // 28.6 m of 629,921 counts per m
+  EXPECT_EQ(unwrapper.step(as_24_bit(18'015'750)), 18'015'750);
+  EXPECT_EQ(unwrapper.step(as_24_bit(18'015'000)), 18'015'000);
+}
+
+/// The oracle computes the counts of an ideal counter of any width.
+TEST(MeasurementPipeline, MeasuresTheStartForAnyScaleSignAndStart) {
+  constexpr unsigned kStartSeed = 28;
+  std::mt19937 random{kStartSeed};
+  std::uniform_real_distribution<double> exponent{2, 9}, start{-200, 200}, rest{-0.1, 0.1};
+  std::bernoulli_distribution negative;
+  for (int trial = 0; trial < 10'000; ++trial) {
+    configuration::Rig rig;
+    std::array<double, kCounters> truth{};
+    std::array<std::int32_t, kCounters> raw{};
+    for (std::size_t i = 0; i < kCounters; ++i) {
+      auto& encoder = rig.encoders[i];
+      encoder.counts_per_unit = std::pow(10, exponent(random));
+      encoder.sign = negative(random) ? -1 : 1;
+      if (i >= kDrives) encoder.rest_angle_rad = rest(random);
+      truth[i] = start(random);
+      const auto counts =
+          std::llround(encoder.sign * (truth[i] + encoder.rest_angle_rad) * encoder.counts_per_unit);
+      raw[i] = as_24_bit(counts);
+    }
+    std::copy_n(truth.begin(), kDrives, rig.start.position.begin());
+    rig.start.swing_radial_rad = truth[3];
+    rig.start.swing_tangential_rad = truth[4];
+    MeasurementPipeline pipeline{rig};
+    (void)pipeline.step(raw);
+    for (std::size_t i = 0; i < kCounters; ++i)
+      ASSERT_NEAR(pipeline.coordinates()[i].position(), truth[i],
+                  0.51 / rig.encoders[i].counts_per_unit + 1e-12)
+          << "seed " << kStartSeed << ", trial " << trial << ", coordinate " << i;
+  }
+}
+
 TEST(Coordinate, StartsWithoutATransient) {
   Coordinate coordinate{{.channel = 0, .counts_per_unit = 1000, .sign = 1}, 0.01, 0.05};
   for (int i = 0; i < 50; ++i) {

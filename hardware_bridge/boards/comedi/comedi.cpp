@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "crane/boards/registry.hpp"
+#include "crane/bridge/start_counts.hpp"
 
 namespace crane::bridge {
 namespace {

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "crane/bridge/converter.hpp"
+#include "crane/bridge/start_counts.hpp"
 #include "registers.hpp"
 
 namespace crane::bridge {
@@ -16,8 +17,8 @@ std::string hex(unsigned value) {
   return text;
 }
 
-constexpr std::uint8_t byte_of(std::int32_t value, int index) {
-  return static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (8 * index));
+constexpr std::uint8_t byte_of(std::int64_t value, int index) {
+  return static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * index));
 }
 
 constexpr std::int32_t sign_extended(std::uint32_t low_24_bits) {
@@ -97,7 +98,7 @@ void ServoToGo::start_counter(const Counter& counter) {
   preset(counter.channel, counter.start_counts);
 }
 
-void ServoToGo::preset(std::size_t channel, std::int32_t counts) noexcept {
+void ServoToGo::preset(std::size_t channel, std::int64_t counts) noexcept {
   const auto control = at(counter_control(channel));
   ports_->out_8(control, kRewind);
   for (int i = 0; i < 3; ++i) ports_->out_8(at(counter_data(channel)), byte_of(counts, i));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "crane/bridge/start_counts.hpp"
 #include "crane/plant/coordinates.hpp"
 
 namespace crane::bring_up {
@@ -13,6 +14,8 @@ std::string_view coordinate_unit(std::size_t coordinate) { return plant::kCoordi
 Session::Session(const configuration::Rig& rig, bridge::Board& board, Clock clock)
     : rig_{rig}, board_{board}, clock_{std::move(clock)}, period_ns_{std::llround(rig.period_s * 1e9)} {
   board_.make_safe();
+  const auto start = bridge::start_counts(rig);
+  for (std::size_t i = 0; i < kCounters; ++i) unwrapper_[i] = bridge::CountUnwrapper{start[i]};
   take(board_.read());
 }
 

@@ -7,6 +7,8 @@
 #include "cli/commands/hw_commands.hpp"
 #include "cli/text_table.hpp"
 #include "crane/bridge/homing.hpp"
+#include "crane/bridge/measurement.hpp"
+#include "crane/bridge/start_counts.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
@@ -96,6 +98,7 @@ int list(const LookOptions& options) {
 
 Json probed(const configuration::Rig& rig, bridge::Board& board) {
   const auto inputs = board.read();
+  const auto start = bridge::start_counts(rig);
   Json found{{"rig", rig.name}, {"board", board.name()}};
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
     if (const auto& encoder = rig.encoders[i]; encoder.counts_per_unit > 0)
@@ -103,8 +106,9 @@ Json probed(const configuration::Rig& rig, bridge::Board& board) {
           {{"name", coordinate_name(i)},
            {"counter", encoder.channel},
            {"raw_counts", inputs.raw_counts[i]},
-           {"coordinate",
-            inputs.raw_counts[i] * encoder.sign / encoder.counts_per_unit - encoder.rest_angle_rad},
+           {"coordinate", static_cast<double>(bridge::CountUnwrapper{start[i]}.step(inputs.raw_counts[i])) *
+                                  encoder.sign / encoder.counts_per_unit -
+                              encoder.rest_angle_rad},
            {"unit", coordinate_unit(i)}});
   for (std::size_t i = 0; i < bridge::kDrives; ++i)
     if (rig.drives[i].present)

@@ -11,14 +11,17 @@
 
 namespace crane::bridge {
 
-/// Extends a 24-bit counter beyond its range. @pre two successive readings differ by less than 2^23 counts
+/// Extends a 24-bit counter beyond its range. @pre two successive readings differ by less than 2^23 counts,
+/// and so do the start and the first reading
 class CountUnwrapper {
  public:
+  /// @param start  expected counts of the first reading, which select among the values that a 24-bit counter
+  ///   shows as the same reading
+  explicit CountUnwrapper(std::int64_t start = 0) : counts_{start} {}
   [[nodiscard]] std::int64_t step(std::int32_t raw_counts) noexcept;
 
  private:
-  std::int64_t counts_ = 0;
-  bool started_ = false;
+  std::int64_t counts_;
 };
 
 /// Time of a sample relative to the nominal ticks.
@@ -34,8 +37,9 @@ class Coordinate {
  public:
   /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter; 0: no filter
   /// @param filter_position  true: position() is also low-pass filtered
+  /// @param start            expected counts of the first step
   Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
-             bool filter_position = false);
+             bool filter_position = false, std::int64_t start = 0);
   void step(std::int32_t raw_counts, const Latched& latched = {}) noexcept;
   /// Adds `change` to the counter. @pre the axis is at rest
   void shift(std::int64_t change) noexcept;
@@ -72,6 +76,8 @@ class MeasurementPipeline {
   void shift(std::size_t counter, std::int64_t change) noexcept { coordinates_[counter].shift(change); }
 
  private:
+  MeasurementPipeline(const configuration::Rig& rig, const std::array<std::int64_t, kCounters>& start);
+
   std::array<Coordinate, kCounters> coordinates_;
 };
 

@@ -52,7 +52,7 @@ class Comedi final : public Board {
   struct Counter {
     std::size_t coordinate = 0;
     unsigned channel = 0;
-    std::int32_t start_counts = 0;
+    std::int64_t start_counts = 0;
   };
   struct Converter {
     std::size_t drive = 0;

@@ -1,6 +1,5 @@
 #pragma once
-/// Assignment of digital lines to signals, and initial counts of the encoders, for all cards with counters
-/// and digital lines.
+/// Assignment of digital lines to signals, for all cards with digital lines.
 #include "crane/bridge/board.hpp"
 #include "crane/configuration/rig.hpp"
 
@@ -20,9 +19,5 @@ class RigLines {
   configuration::Wiring wiring_;
   std::array<bool, kDrives> present_{};
 };
-
-/// Initial counts of the incremental encoders: at [start] of the rig file; for an axis with homing at
-/// unhomed_position().
-[[nodiscard]] std::array<std::int32_t, kCounters> start_counts(const configuration::Rig& rig);
 
 }  // namespace crane::bridge

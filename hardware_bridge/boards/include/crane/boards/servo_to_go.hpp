@@ -37,7 +37,7 @@ class ServoToGo final : public Board {
   struct Counter {
     bool used = false;
     std::size_t channel = 0;
-    std::int32_t start_counts = 0;
+    std::int64_t start_counts = 0;
   };
   [[nodiscard]] std::uint16_t at(std::uint16_t offset) const {
     return static_cast<std::uint16_t>(base_ + offset);
@@ -45,7 +45,8 @@ class ServoToGo final : public Board {
   [[nodiscard]] int recognised_model() const;
   void stop_timer() noexcept;
   void start_counter(const Counter& counter);
-  void preset(std::size_t channel, std::int32_t counts) noexcept;
+  /// Writes the low 24 bits of `counts`.
+  void preset(std::size_t channel, std::int64_t counts) noexcept;
   void latch_all() noexcept;
   [[nodiscard]] std::int32_t latched(std::size_t channel) noexcept;
   [[nodiscard]] std::uint16_t input_levels() noexcept;
