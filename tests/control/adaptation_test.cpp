@@ -166,6 +166,42 @@ TEST(Adaptation, LeavesNoLimitCycleInRandomCranes) {
   }
 }
 
+struct Tight {
+  double share;        ///< friction_share
+  double amplitude_v;  ///< additional friction
+};
+
+/// The trolley is tight around 1.3 m: the friction learnt there exceeds the friction at 0.35 m.
+class TightSpot : public testing::TestWithParam<Tight> {};
+
+TEST_P(TightSpot, DoesNotMakeTheAxisOscillateElsewhere) {
+  constexpr double kWindow_s = 24, kMoving_mps = 0.02;
+  auto rig = adapted_tower();
+  rig.controller = "lqr";
+  rig.design.adaptation.friction_share = GetParam().share;
+  rig.more_terms.push_back(
+      {"position_dependent_friction",
+       "trolley",
+       {{"amplitude_v", GetParam().amplitude_v}, {"wavelength", 1.6}, {"tight_at", 1.3}}});
+  AdaptedCrane crane{rig};
+  crane.place(0.3, 0, rig.design.cable_length_m);
+  double moving_until_s = 0;
+  crane.watch = [&](double time_s) {
+    if (std::abs(crane.state().trolley_mps) > kMoving_mps) moving_until_s = time_s;
+  };
+  int move = 0;
+  for (const double target_m : {1.3, 0.35, 0.6, 0.35}) {
+    crane.move({target_m, 0}, kWindow_s);
+    // The detection of an oscillation takes eight reversals; later moves must not oscillate again.
+    EXPECT_LT(moving_until_s, ++move <= 2 ? kWindow_s - 2 : kLongest_s) << target_m;
+  }
+  EXPECT_LE(crane.adaptation().report().axis[kTrolley].limit_cycles, 2U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Friction, TightSpot,
+                         testing::Values(Tight{0.5, 0.3}, Tight{0.5, 0.6}, Tight{0.5, 1.2}, Tight{0.9, 0.3},
+                                         Tight{0.9, 0.8}, Tight{0.9, 1.2}));
+
 /// The adaptation without a crane; the test sets its inputs.
 class Frozen : public testing::Test {
  protected:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace crane::control::adaptation {
 namespace {
@@ -142,6 +143,7 @@ void AxisAdaptation::finish_block(LevelFilter& filter) noexcept {
   }
   refused_in_a_row_ = 0;
   filter.update(axis_, d, mean);
+  at_bound_[d] = at_bound_[d] || filter.payload_at_bound();
   ++report_.direction[d].blocks;
   lower(d, mean.speed, filter);
 }
@@ -187,6 +189,9 @@ void AxisAdaptation::oscillates(const LevelFilter& filter) noexcept {
   ++report_.limit_cycles;
   for (std::size_t d = 0; d < 2; ++d) {
     FrictionLevels& target = target_[d];
+    // A level above that of the file was learnt where the friction is larger than here.
+    target.static_v = std::min(target.static_v, file_[d].static_v);
+    target.coulomb_v = std::min(target.coulomb_v, file_[d].coulomb_v);
     if (on_trial_ && good_[d].static_v < target.static_v) target.static_v = good_[d].static_v;
     if (on_trial_ && good_[d].coulomb_v < target.coulomb_v) target.coulomb_v = good_[d].coulomb_v;
     // a level of at most kCeilingCut of the known friction cannot cause an oscillation
@@ -234,6 +239,10 @@ void AxisAdaptation::end_move(LevelFilter& filter) noexcept {
   bool changed = false;
   for (std::size_t d = 0; d < 2; ++d) {
     ceiling_[d] = std::min(1 + share_, ceiling_[d] * kCeilingRise);
+    if (std::exchange(at_bound_[d], false)) {
+      filter.restart(axis_, d);
+      continue;
+    }
     if (!excited(d, filter)) continue;
     const FrictionLevels levels = wanted(d, filter);
     if (std::abs(levels.coulomb_v - target_[d].coulomb_v) < kDeadShare * file_[d].coulomb_v &&

@@ -46,6 +46,7 @@ class AxisAdaptation {
   DriveFriction friction_;  ///< with the used levels
   Set file_, used_, target_, good_;
   BreakAway break_away_;
+  std::array<bool, 2> at_bound_{};   ///< a block of the present move was learnt with the payload at its bound
   std::array<double, 2> ceiling_{};  ///< largest permitted level / level of the rig file, by direction
   LimitCycle limit_cycle_;
   Block block_;

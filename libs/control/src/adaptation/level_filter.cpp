@@ -104,10 +104,21 @@ void LevelFilter::forget(std::size_t axis, std::size_t direction) noexcept {
   }
 }
 
+void LevelFilter::restart(std::size_t axis, std::size_t direction) noexcept {
+  forget(axis, direction);
+  const int first = index(axis, direction);
+  for (const int i : {first, first + 1}) estimate_[i] = nominal_[i];
+}
+
 void LevelFilter::loosen_payload() noexcept {
   covariance_(kMass, kMass) =
       std::min(covariance_(kMass, kMass) + squared(kPayloadWalkShare * nominal_[kMass]),
                std::max(covariance_(kMass, kMass), squared(prior_[kMass])));
+}
+
+bool LevelFilter::payload_at_bound() const noexcept {
+  const double mass = estimate_[kMass], nominal = nominal_[kMass];
+  return nominal > 0 && (mass <= nominal * (1 - share_[kMass]) || mass >= nominal * (2 + share_[kMass]));
 }
 
 Estimated LevelFilter::at(int i) const noexcept {

@@ -31,6 +31,8 @@ class LevelFilter {
   void update(std::size_t axis, std::size_t direction, const Block& block) noexcept;
   /// Resets the covariance of a direction to that of the rig file; the estimates do not change.
   void forget(std::size_t axis, std::size_t direction) noexcept;
+  /// Resets the levels of a direction and their covariance to those of the rig file.
+  void restart(std::size_t axis, std::size_t direction) noexcept;
   /// Call at the end of a move: the payload may have changed.
   void loosen_payload() noexcept;
 
@@ -44,6 +46,9 @@ class LevelFilter {
   [[nodiscard]] double noise_v(std::size_t axis) const noexcept;
   [[nodiscard]] Estimated coulomb_v(std::size_t axis, std::size_t direction) const noexcept;
   [[nodiscard]] Estimated viscous_vspm(std::size_t axis, std::size_t direction) const noexcept;
+  /// True when the estimate of the payload is at its bound: then the filter attributes force of the load to
+  /// the friction, or the reverse. False for a crane without payload.
+  [[nodiscard]] bool payload_at_bound() const noexcept;
   [[nodiscard]] Estimated load_mass_kg() const noexcept { return at(kMass); }
   [[nodiscard]] double prior_coulomb_deviation(std::size_t axis, std::size_t direction) const noexcept {
     return prior_[index(axis, direction)];
