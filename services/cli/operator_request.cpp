@@ -6,6 +6,8 @@
 #include <iostream>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
+
 namespace crane::cli {
 namespace {
 
@@ -18,6 +20,17 @@ std::uint64_t first_id() {
 
 bool may_be_repeated(crane_RequestKind kind) {
   return kind == crane_REQUEST_STOP || kind == crane_REQUEST_ESTOP;
+}
+
+bool stops_crane(crane_RequestKind kind) { return may_be_repeated(kind) || kind == crane_REQUEST_DISARM; }
+
+/// Another program on the bus can prevent every answer, and expired keys prevent the request. Ending the
+/// stack needs neither bus nor keys.
+std::string without_bus(crane_RequestKind kind) {
+  return stops_crane(kind)
+             ? "; to stop the crane without the bus, end `crane up` (Ctrl-C, or `systemctl stop "
+               "crane`)"
+             : "";
 }
 
 class Conversation {
@@ -36,9 +49,9 @@ class Conversation {
     if (wait_until(bus_, timeout_s, [this] { return found(); })) return;
     if (heard_supervisor_ && heard_planner() && probe_at_ns_ > 0)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
-                     " s: check that its ticks advance (crane status)" + without_bus());
+                     " s: check that its ticks advance (crane status)" + without_bus(wanted_.kind));
     throw NoAnswer((heard_supervisor_ && !heard_planner() ? "no trajectory planner" : "no supervisor") +
-                   where_and_remedy(bus_) + without_bus());
+                   where_and_remedy(bus_) + without_bus(wanted_.kind));
   }
 
   Answer exchange(double timeout_s) {
@@ -57,17 +70,11 @@ class Conversation {
     });
     if (!answer)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
-                     " s: check that its ticks advance (crane status)" + without_bus());
+                     " s: check that its ticks advance (crane status)" + without_bus(wanted_.kind));
     return *answer;
   }
 
  private:
-  /// Another program on the bus can prevent every answer. Ending the stack needs no bus.
-  [[nodiscard]] std::string without_bus() const {
-    return may_be_repeated(wanted_.kind) ? "; to stop the crane without the bus, end `crane up` (Ctrl-C, or "
-                                           "`systemctl stop crane`)"
-                                         : "";
-  }
   void hear_supervisor() {
     while (const auto status = supervisor_.take()) {
       heard_supervisor_ = true;
@@ -116,6 +123,18 @@ class Conversation {
 };
 
 }  // namespace
+
+bus::Bus open_bus_for(crane_RequestKind kind, const runtime::BusOptions& options) {
+  try {
+    return open_bus(options, crane_SOURCE_OPERATOR);
+  } catch (const configuration::ConfigurationError& error) {
+    auto problems = error.problems();
+    problems.back() += without_bus(kind);
+    throw configuration::ConfigurationError(std::move(problems));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(error.what() + without_bus(kind));
+  }
+}
 
 std::string client_name() { return "crane " + std::to_string(::getpid()); }
 

@@ -20,6 +20,11 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Opens the bus for a request of this kind. For a request that stops the crane, the message of a failure
+/// (for example expired keys) also states how to stop the crane without the bus.
+/// @throws configuration::ConfigurationError, bus::Error, std::runtime_error
+[[nodiscard]] bus::Bus open_bus_for(crane_RequestKind kind, const runtime::BusOptions& options);
+
 /// Client name of the requests of this program.
 [[nodiscard]] std::string client_name();
 

@@ -124,6 +124,30 @@ TEST_F(Keys, ThatExpiredAreNamedWithTheirDate) {
                              HasSubstr("must be valid now"), HasSubstr("crane keys make"))));
 }
 
+TEST_F(Keys, ThatEndWithin30DaysAreNamedWithTheirDate) {
+  const std::int64_t now_s = 1'800'000'000;  // 2027-01-15 08:00 UTC
+  const auto keys = temporary_ / "ending";
+  make(keys, {now_s - kDay_s, now_s + 40 * kDay_s});
+  EXPECT_EQ(warning_of_end(keys, now_s), "");
+  EXPECT_EQ(warning_of_end(keys, now_s + 9 * kDay_s), "");
+  EXPECT_THAT(warning_of_end(keys, now_s + 11 * kDay_s),
+              AllOf(HasSubstr(keys.string()), HasSubstr("ends on 2027-02-24 08:00 UTC"),
+                    HasSubstr("crane keys make")));
+  const auto all = ends(keys);
+  EXPECT_THAT(all, SizeIs(2 + roles().size() * std::size(kVendors) * 2));
+  for (const auto& end : all) EXPECT_EQ(end.until_s, now_s + 40 * kDay_s) << end.file;
+}
+
+TEST_F(Keys, OfWhichOneFileEndsFirstNameThisFile) {
+  const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
+  make(temporary_ / "later", valid_for(300));
+  EXPECT_EQ(warning_of_end(temporary_ / "later", now_s), "");
+  const auto ending = identity(directory(), "supervisor", "cyclone").permissions;
+  const auto file = identity(temporary_ / "later", "supervisor", "cyclone").permissions;
+  std::filesystem::copy_file(ending, file, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THAT(warning_of_end(temporary_ / "later", now_s + kDay_s), HasSubstr(file.string() + ": ends on"));
+}
+
 TEST_F(Keys, ThatAreNotYetValidNameTheClockAsReason) {
   const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
   make(temporary_ / "new", {now_s + kDay_s, now_s + 2 * kDay_s});

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <csignal>
+#include <ctime>
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/bus/bus.hpp"
+#include "crane/security/keys.hpp"
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
@@ -54,6 +56,37 @@ class Start : public testing::Test {
 
 std::size_t lines_in(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// The tool cannot join the bus. The stack continues after the end of its keys.
+TEST_F(Start, AStopWithExpiredOrWithoutKeysStatesHowToStopTheCraneWithoutTheBus) {
+  constexpr std::int64_t kDay_s = 24 * 3600;
+  const std::int64_t now_s = std::time(nullptr);
+  security::make(directory_ / "expired", {now_s - 3 * kDay_s, now_s - kDay_s});
+  for (const char* keys : {"expired", "deleted"})
+    for (const char* command : {"stop", "estop", "disarm"}) {
+      const auto ended = crane({command, "--secure", (directory_ / keys).string()});
+      EXPECT_EQ(ended.exit_code, kBadInput) << command;
+      EXPECT_THAT(ended.errors,
+                  AllOf(HasSubstr(keys), HasSubstr("to stop the crane without the bus, end `crane "
+                                                   "up` (Ctrl-C, or `systemctl stop crane`)")));
+    }
+}
+
+TEST_F(Start, WithKeysThatEndSoonNamesFileAndDate) {
+  security::make(directory_ / "keys", security::valid_for(10));
+  const auto keys = (directory_ / "keys").string();
+  const auto date = security::utc_of(security::ends(keys).front().until_s);
+  ProgramRun up{stack::program_directory() / "crane",
+                on_this_crane({"up", "--secure", keys, "--no-black-box", "--clock", "lockstep"})};
+  EXPECT_TRUE(up.wait_for("is up", 30s)) << up.errors();
+  EXPECT_THAT(up.errors(), AllOf(HasSubstr(keys), HasSubstr("ends on " + date)));
+  up.send(SIGINT);
+  EXPECT_EQ(up.wait(20s), 0);
+  const auto check = run_program(stack::program_directory() / "crane", {"keys", "check", keys});
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_THAT(check.output, HasSubstr("all usable until " + date));
+  EXPECT_THAT(check.errors, HasSubstr("ends on " + date));
 }
 
 TEST_F(Start, AnUnknownKeyInARigFileIsNamedWithItsLineAndTheKeyThatWasMeant) {

@@ -1,7 +1,6 @@
 #include <sys/stat.h>
 
 #include <ctime>
-#include <fstream>
 #include <sstream>
 
 #include "crane/security/keys.hpp"
@@ -15,22 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMakeAnew = "; make new keys with `crane keys make DIR` and give every host its copy";
 constexpr const char* kCopyAnew = "; copy the file again from the directory that `crane keys make` wrote";
-
-std::string contents_of(const fs::path& file) {
-  std::ifstream stream{file, std::ios::binary};
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-std::string utc_of(std::int64_t time_s) {
-  const std::time_t time = time_s;
-  std::tm parts{};
-  ::gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
-  return text;
-}
 
 /// Collects the problems of the files of one identity.
 class Checker {

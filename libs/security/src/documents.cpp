@@ -1,6 +1,8 @@
 #include "documents.hpp"
 
 #include <ctime>
+#include <fstream>
+#include <sstream>
 
 namespace crane::security {
 namespace {
@@ -58,6 +60,13 @@ std::string permissions_document(const Role& role, const std::string& subject, c
          "</not_before><not_after>" + utc(validity.until_s) + "</not_after></validity>\n<allow_rule>\n" +
          kDomains + criteria("publish", writes(role)) + criteria("subscribe", {"crane/*"}) +
          "</allow_rule>\n<default>DENY</default>\n</grant></permissions>\n</dds>\n";
+}
+
+std::string contents_of(const std::filesystem::path& file) {
+  std::ifstream stream{file, std::ios::binary};
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
 }
 
 }  // namespace crane::security

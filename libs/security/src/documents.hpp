@@ -1,5 +1,6 @@
 #pragma once
 /// Governance and permissions documents of the DDS Security specification 1.1, without signature.
+#include <filesystem>
 #include <string>
 
 #include "crane/security/keys.hpp"
@@ -12,5 +13,7 @@ namespace crane::security {
 [[nodiscard]] std::string governance_document();
 [[nodiscard]] std::string permissions_document(const Role& role, const std::string& subject,
                                                const Validity& validity);
+/// Content of a file; empty when it cannot be read.
+[[nodiscard]] std::string contents_of(const std::filesystem::path& file);
 
 }  // namespace crane::security

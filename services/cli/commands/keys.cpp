@@ -65,7 +65,12 @@ int check_keys(const std::string& directory) {
     for (const auto& problem : entry.problems)
       if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(problem);
   if (!problems.empty()) throw configuration::ConfigurationError(std::move(problems));
-  std::cout << directory << ": " << entries.size() << " identities, all usable\n";
+  std::cout << directory << ": " << entries.size() << " identities, all usable";
+  if (const auto ends = security::ends(directory); !ends.empty())
+    std::cout << " until " << security::utc_of(ends.front().until_s);
+  std::cout << '\n';
+  if (const auto warning = security::warning_of_end(directory, std::time(nullptr)); !warning.empty())
+    std::cerr << warning << '\n';
   return runtime::kExitDone;
 }
 

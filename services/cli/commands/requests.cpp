@@ -27,7 +27,7 @@ void add(CLI::App& app, Action& chosen, const Verb& verb) {
   command->footer(verb.footer);
   command->callback([options, confirmed, verb, &chosen] {
     chosen = [options, confirmed, verb] {
-      auto bus = open_bus(*options, crane_SOURCE_OPERATOR);
+      auto bus = open_bus_for(verb.kind, *options);
       const stack::OperatorRequest wanted{.kind = verb.kind,
                                           .selected = {*confirmed, *confirmed, *confirmed}};
       return report(verb.name, ask(bus, wanted));

@@ -1,5 +1,6 @@
 /// crane up: runs the stack until Ctrl-C.
 #include <CLI/CLI.hpp>
+#include <ctime>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "cli/stop_guard.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/runtime/node.hpp"
+#include "crane/security/keys.hpp"
 #include "crane/supervisor/component.hpp"
 #include "crane/twin/component.hpp"
 #include "dashboard/dashboard.hpp"
@@ -141,6 +143,13 @@ void require_possible_in_process(const UpOptions& options) {
   if (!problems.empty()) throw configuration::ConfigurationError(std::move(problems));
 }
 
+/// A running stack continues after the end of its keys, but no tool can then join it to stop the crane.
+void warn_of_keys(const std::string& directory) {
+  if (directory.empty()) return;
+  const auto warning = security::warning_of_end(std::filesystem::absolute(directory), std::time(nullptr));
+  if (!warning.empty()) std::cerr << "crane up: " << warning << '\n';
+}
+
 int up(UpOptions options) {
   runtime::install_stop_signals();
   require_possible_in_process(options);
@@ -158,6 +167,7 @@ int up(UpOptions options) {
   (void)configuration::load_rig(twin_rig);  // reports problems of the rig file before any process is started
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
+  warn_of_keys(options.launch.bus.secure);
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
   runtime::refuse_second_writer(bus, supervisor::supervisor_spec().writes);
   StopGuard guard;

@@ -45,6 +45,25 @@ void make(const std::filesystem::path& directory, const Validity& validity);
 /// to the role, and other users must not be able to change them or their directories.
 [[nodiscard]] std::vector<std::string> problems(const Identity& identity, std::string_view vendor);
 
+/// A certificate or permissions file and the end of its validity.
+struct FileEnd {
+  std::filesystem::path file;
+  std::int64_t until_s = 0;  ///< seconds since 1970
+};
+/// Certificates and permissions of all identities in `directory`, the earliest end first. Each file occurs
+/// once; a file whose end cannot be read is omitted.
+[[nodiscard]] std::vector<FileEnd> ends(const std::filesystem::path& directory);
+/// "2026-12-29 10:00 UTC"
+[[nodiscard]] std::string utc_of(std::int64_t time_s);
+
+/// Time before the end of validity from which `crane up` warns [days]: long enough to make new keys and to
+/// copy them to every host at the next maintenance. A running stack continues after the end, but no tool can
+/// then join it to stop the crane.
+inline constexpr int kWarnBeforeEnd_days = 30;
+/// A warning that names the first file that ends within kWarnBeforeEnd_days after `now_s`, with its date;
+/// empty: no file ends so soon.
+[[nodiscard]] std::string warning_of_end(const std::filesystem::path& directory, std::int64_t now_s);
+
 /// One line of `crane keys show`.
 struct Entry {
   const Role* role;
