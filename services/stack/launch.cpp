@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "crane/configuration/realtime_period.hpp"
 #include "crane/runtime/loop_process.hpp"
 #include "crane/twin/component.hpp"
 
@@ -27,6 +28,11 @@ void start(ChildProcesses& children, std::string_view name, std::string_view pro
     arguments.insert(arguments.end(), {"--ledger", "/proc/self/fd/" + std::to_string(inherited)});
   }
   children.start(std::string{name}, std::string{program}, arguments, inherited);
+}
+
+/// Refuses a rig before any process starts. Each process would refuse it by itself.
+void require_possible(const configuration::Rig& rig, const LaunchOptions& options) {
+  if (options.clock == "realtime") configuration::require_realtime_period(rig);
 }
 
 }  // namespace
@@ -54,6 +60,7 @@ std::map<std::string, std::string> vendors_from(const std::vector<std::string>& 
 
 void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
             const LaunchOptions& options) {
+  require_possible(configuration::load_rig(options.rig), options);
   for (const auto& spec : specs) {
     auto bus = options.bus;
     if (const auto chosen = options.vendors.find(std::string{spec.name}); chosen != options.vendors.end())
@@ -63,10 +70,12 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
 }
 
 void launch_in_process(ChildProcesses& children, const LaunchOptions& options) {
+  require_possible(configuration::load_rig(options.rig), options);
   start(children, "loop", runtime::kLoopProgram, options.bus, options);
 }
 
 void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options) {
+  require_possible(rig, options);
   if (rig.board != "emulated") return;
   // The emulated rig replaces hardware: it must preempt the processes of the stack.
   const int priority = options.priority > 0 ? options.priority + 1 : 0;

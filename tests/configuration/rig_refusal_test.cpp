@@ -5,6 +5,7 @@
 #include <iterator>
 #include <random>
 
+#include "crane/configuration/realtime_period.hpp"
 #include "rig_text.hpp"
 
 namespace crane::configuration {
@@ -60,6 +61,24 @@ TEST(RigFile, ReportsSeveralProblemsAtOnceEachWithItsLine) {
                               "encoder.slew.channel = 0: must be used once: another section has this channel",
                           tower.line("[start]", "slew_angle") +
                               "start.slew_angle_deg = 5: unit must be rad: slew_angle_rad"));
+}
+
+TEST(RigFile, RefusesInRealTimeAPeriodBelowOneMillisecond) {
+  auto rig = parse_rig(tower_text(), "rig.toml");
+  for (const double period_s : {0.01, 0.001}) {
+    rig.period_s = period_s;
+    EXPECT_NO_THROW(require_realtime_period(rig));
+  }
+  for (const double period_s : {0.00099, 1e-4, 1e-5}) {
+    rig.period_s = period_s;
+    try {
+      require_realtime_period(rig);
+      FAIL() << "accepted " << period_s;
+    } catch (const ConfigurationError& error) {
+      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("rig.toml: period_s = "),
+                                               testing::HasSubstr("must be at least 0.001 in real time")));
+    }
+  }
 }
 
 struct Corruption {

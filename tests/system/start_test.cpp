@@ -89,6 +89,23 @@ TEST_F(Start, WithKeysThatEndSoonNamesFileAndDate) {
   EXPECT_THAT(check.errors, HasSubstr("ends on " + date));
 }
 
+/// Such a period leaves the processes of the loop no time.
+TEST_F(Start, InRealTimeWithAPeriodBelowOneMillisecondIsRefusedByCraneUpAndByEachProcess) {
+  const auto rig = rig_file("period_s = 1e-4\n");
+  const auto refusal = HasSubstr("rig.toml: period_s = 1e-04: must be at least 0.001 in real time");
+  for (const auto& arguments : {std::vector<std::string>{"up", "--rig", rig, "--no-black-box"},
+                                {"up", "--rig", rig, "--no-black-box", "--in-process"}}) {
+    const auto up = crane(arguments);
+    EXPECT_EQ(up.exit_code, kBadInput);
+    EXPECT_THAT(up.errors, refusal);
+  }
+  for (const char* program : {"crane_tracking", "crane_plant", "crane_supervisor"}) {
+    const auto ended = run_program(stack::program_directory() / program, on_this_crane({"--rig", rig}));
+    EXPECT_EQ(ended.exit_code, kBadInput) << program;
+    EXPECT_THAT(ended.errors, refusal) << program;
+  }
+}
+
 TEST_F(Start, AnUnknownKeyInARigFileIsNamedWithItsLineAndTheKeyThatWasMeant) {
   const auto rig = rig_file("[plant]\nload_mas_kg = 2\n");
   for (const auto& arguments :

@@ -1,6 +1,7 @@
 #include "crane/runtime/loop_process.hpp"
 
 #include "crane/bus/ledger.hpp"
+#include "crane/configuration/realtime_period.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "crane/runtime/memory_limit.hpp"
 #include "host.hpp"
@@ -30,6 +31,7 @@ std::vector<Write> writes_of(const std::vector<ComponentSpec>& specs) {
 int run_loop(const std::vector<ComponentSpec>& specs, const LoopOptions& options) {
   require_possible(options);
   const auto rig = configuration::load_rig(options.rig);
+  configuration::require_realtime_period(rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto new_epoch = [&] { return options.epoch != 0 ? options.epoch : random_epoch(); };
   auto joining = bus_options(options.bus, std::string{kLoopProgram}, specs.front().source, new_epoch());

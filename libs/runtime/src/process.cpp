@@ -8,6 +8,7 @@
 
 #include "crane/bus/ledger.hpp"
 #include "crane/bus/path_stamps.hpp"
+#include "crane/configuration/realtime_period.hpp"
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/memory_limit.hpp"
 #include "crane/runtime/signals.hpp"
@@ -54,6 +55,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto rig = configuration::load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = clock_from(options.clock);
+  if (clock == Clock::realtime) configuration::require_realtime_period(rig);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::stamp_paths_if_asked();
   Turn turn{monotonic_ns};  // outlives the bus, whose threads call it

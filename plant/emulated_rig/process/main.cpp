@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "crane/configuration/realtime_period.hpp"
 #include "crane/emulated_rig/rig_server.hpp"
 #include "crane/runtime/process.hpp"
 #include "crane/runtime/program_start.hpp"
@@ -39,6 +40,7 @@ void run_in_realtime(emulated_rig::RigServer& server, double period_s) {
 int run(const Options& options) {
   const auto rig = configuration::load_rig(options.rig);
   const bool lockstep = options.clock == "lockstep";
+  if (!lockstep) configuration::require_realtime_period(rig);
   emulated_rig::RigServer server{rig, bridge::shared_lines_name(options.crane, options.domain), lockstep,
                                  options.model};
   if (lockstep) {

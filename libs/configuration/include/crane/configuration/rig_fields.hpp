@@ -51,7 +51,7 @@ inline constexpr std::array<Field<Rig>, 4> kRigFields{{
      .member = &Rig::period_s,
      .range = plant::kPeriods,
      .unit = "s",
-     .meaning = "period of the control loop (one tick)"},
+     .meaning = "period of the control loop (one tick); in real time at least 0.001"},
     {.key = "board",
      .member = Choice<Rig>{board_names, [](const Rig& rig) { return place_of(rig.board, board_names()); },
                            [](Rig& rig, std::size_t i) { rig.board = board_names()[i]; }},
