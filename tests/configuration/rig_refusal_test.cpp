@@ -63,6 +63,37 @@ TEST(RigFile, ReportsSeveralProblemsAtOnceEachWithItsLine) {
                               "start.slew_angle_deg = 5: unit must be rad: slew_angle_rad"));
 }
 
+TEST(RigFile, RefusesAnEncoderThatIsTooCoarseForTheBrakeOrTooFineForItsCounter) {
+  ChangedTower tower;
+  tower.change("[encoder.trolley]", "counts_per_m = 629921.2598425197", "counts_per_m = 1")
+      .change("[encoder.slew]", "counts_per_rad = 57295.77951308232", "counts_per_rad = 1e9");
+  const auto problems = problems_of(tower.text());
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems[0], tower.line("[encoder.trolley]", "counts_per_m") +
+                             "encoder.trolley.counts_per_m = 1: must be at least 50: one count must not "
+                             "exceed the permitted slip of the closed brake, 0.02 m");
+  EXPECT_THAT(problems[1],
+              testing::AllOf(testing::StartsWith(tower.line("[encoder.slew]", "counts_per_rad")),
+                             testing::HasSubstr("must be below"), testing::HasSubstr("2^23 counts")));
+}
+
+/// The bounds themselves: the coarsest accepted encoder, and the finest at the largest speed of the trolley.
+TEST(RigFile, AcceptsEncodersUpToTheBoundsOfBrakeAndCounter) {
+  const auto rig = parse_rig(tower_text(), "rig.toml");
+  const auto& trolley = rig.drives[plant::kTrolley];
+  const double most = (1 << 23) / (trolley.max_speed * rig.period_s);
+  const auto problems_with = [](double counts_per_m) {
+    ChangedTower tower;
+    tower.change("[encoder.trolley]", "counts_per_m = 629921.2598425197",
+                 "counts_per_m = " + std::to_string(counts_per_m));
+    return problems_of(tower.text());
+  };
+  EXPECT_THAT(problems_with(1 / trolley.brake_slip), IsEmpty());
+  EXPECT_THAT(problems_with(0.99 / trolley.brake_slip), testing::SizeIs(1));
+  EXPECT_THAT(problems_with(0.99 * most), IsEmpty());
+  EXPECT_THAT(problems_with(1.01 * most), testing::SizeIs(1));
+}
+
 TEST(RigFile, RefusesInRealTimeAPeriodBelowOneMillisecond) {
   auto rig = parse_rig(tower_text(), "rig.toml");
   for (const double period_s : {0.01, 0.001}) {

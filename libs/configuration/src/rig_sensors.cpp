@@ -3,6 +3,9 @@
 namespace crane::configuration {
 namespace {
 
+/// A 24-bit counter shows a larger change in one period as a motion in the opposite direction.
+constexpr double kHalfCounterRange_counts = 1 << 23;
+
 /// True when a rig can measure a coordinate, and when it must.
 struct Measurable {
   bool possible, needed;
@@ -14,6 +17,23 @@ Measurable measurable(const Rig& rig, std::size_t coordinate) {
   // The load of a gantry swings in one plane. A pendulum can have one or two planes.
   const bool tower = rig.kind == RigKind::tower;
   return {tower || rig.kind == RigKind::pendulum, tower};
+}
+
+/// The supervisor and the bridge detect the slip of a closed brake by a change of the position, and the
+/// bridge extends a 24-bit counter by the change of its reading in one tick.
+void check_resolution(TomlTable& table, const plant::Coordinate& coordinate, const Encoder& encoder,
+                      const Drive& drive, double period_s) {
+  if (!(encoder.counts_per_unit > 0)) return;  // reported already
+  const auto key = key_in(kEncoderFields, "counts_per", coordinate);
+  if (const double least = 1 / drive.brake_slip; encoder.counts_per_unit < least)
+    table.problem(key, "must be at least " + shortest_number(least) +
+                           ": one count must not exceed the permitted slip of the closed brake, " +
+                           shortest_number(drive.brake_slip) + " " + coordinate.unit);
+  if (const double most = kHalfCounterRange_counts / (drive.max_speed * period_s);
+      encoder.counts_per_unit >= most)
+    table.problem(key, "must be below " + shortest_number(most) +
+                           ": at the largest speed, the counter must change by less than 2^23 counts in one "
+                           "period");
 }
 
 }  // namespace
@@ -32,6 +52,8 @@ void read_encoders(TomlTable& root, Rig& rig) {
     if (i >= plant::kAxes) read_section(table, kRestFields, encoder, &rig, "");
     check_sign(table, encoder.sign);
     check_unique(table, "channel", encoder.channel, taken);
+    if (i < plant::kAxes && possible)
+      check_resolution(table, coordinate, encoder, rig.drives[i], rig.period_s);
   }
 }
 
