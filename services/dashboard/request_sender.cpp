@@ -30,7 +30,10 @@ void RequestSender::send(const stack::OperatorRequest& wanted, Answered answered
     return answered({false, "too many requests wait for the supervisor: try again"});
   }
   const auto now_ns = runtime::monotonic_ns();
+  while (const auto status = statuses_.take()) seen_ = status->header;
   pending_.push_back({.wanted = wanted, .answered = {}, .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
+  // A request that is sent later still names this status: the supervisor refuses it after a stop in between.
+  pending_.back().wanted.seen = seen_;
   pending_.back().answered.push_back(std::move(answered));
   advance(pending_.back(), now_ns);
 }
@@ -71,8 +74,6 @@ void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   constexpr std::size_t kRepetitionsPerWriter = 4;
   try {
     if (!pending.ids.empty() && pending.ids.size() % kRepetitionsPerWriter == 0) client_.renew_writer();
-    while (const auto status = statuses_.take()) seen_ = status->header;
-    pending.wanted.seen = seen_;
     pending.ids.push_back(client_.send(pending.wanted));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {

@@ -22,6 +22,7 @@ class RequestSender {
   /// request.
   static constexpr std::size_t kMostWaiting = 16;
 
+  /// The request names the newest status of the time of this call.
   void send(const stack::OperatorRequest& wanted, Answered answered);
   /// Takes answers, repeats stops, and abandons requests that are not answered in time.
   void poll(std::int64_t now_ns);
