@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "laboratory/strange_lab.hpp"
 #include "search/compare.hpp"
@@ -31,12 +32,13 @@ strange::Gantry crane_with_drag() {
   return crane;
 }
 
-/// Largest relative difference of the statistics of two score tests, among the significant candidates.
+/// Largest difference between the roots of the statistics of two score tests, among the significant
+/// candidates. Noise gives the root of a chi-square statistic a standard deviation of 1.
 double largest_difference(const ScoreTable& a, const ScoreTable& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.best.size(); ++i)
     if (std::min(a.best[i].p_value, b.best[i].p_value) < 0.01)
-      largest = std::max(largest, std::abs(a.best[i].statistic / b.best[i].statistic - 1));
+      largest = std::max(largest, std::abs(std::sqrt(a.best[i].statistic) - std::sqrt(b.best[i].statistic)));
   return largest;
 }
 
@@ -58,9 +60,9 @@ TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
 }
 
 /// The base model with the values of the rig file and the hypothesis of a drag use slopes of the calibrated
-/// base model. A table with its own slopes has nearly the same statistics.
+/// base model. With slopes of their own, their statistics differ by less than noise changes them.
 TEST(ProbeSlopes, OfOneScoreTestServeLaterOnes) {
-  constexpr double kSmall = 0.1;
+  constexpr double kSmall = 0.5;
   const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
   const Runs train = two_runs(crane_with_drag(), rig), none;
   Study study(rig, train, none, {}, kUsualAccuracy);

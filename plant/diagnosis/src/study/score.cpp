@@ -179,7 +179,7 @@ std::vector<Score> Study::places(const Effects& effects) const {
 struct Study::Probing {
   const Effects& effects;
   const Evaluation& at;
-  PartVectors unmoved;      ///< plain residuals of the equation error of `at`
+  PartVectors unmoved;  ///< plain residuals of the equation error of `at`
   ShowsIn unlike_base;  ///< parts in which the effects are visible
   const ProbeSlopes& known;
 };
