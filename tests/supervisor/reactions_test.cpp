@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <tuple>
 
 #include "crane/supervisor/rules.hpp"
 #include "timeline.hpp"
@@ -91,6 +95,32 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       case Reaction::none:
         ADD_FAILURE() << row.name;
     }
+  }
+}
+
+/// The table of docs/safety.md shows these texts; their figures are those of the limits.
+TEST(Rules, StateTheFiguresOfTheLimits) {  // S16
+  const Limits limits;
+  const auto text = [](double value, const char* unit) {
+    std::ostringstream number;
+    number << value << ' ' << unit;
+    return number.str();
+  };
+  const std::tuple<std::string_view, std::string, const char * Rule::*> figures[] = {
+      {"supervisor_bridge_not_ready", text(limits.arm_match_time_s, "s"), &Rule::predicate},
+      {"supervisor_bridge_not_ready", text(limits.arm_match_time_s, "s"), &Rule::detection},
+      {"supervisor_no_match", text(limits.arm_match_time_s, "s"), &Rule::predicate},
+      {"supervisor_no_match", text(limits.arm_volt_limit_v, "V"), &Rule::predicate},
+      {"supervisor_no_match", text(limits.arm_match_time_s, "s"), &Rule::detection},
+      {"supervisor_brake_did_not_open", text(limits.brake_test_time_s, "s"), &Rule::predicate},
+      {"supervisor_brake_did_not_open", text(limits.brake_test_time_s, "s"), &Rule::detection},
+      {"supervisor_stop_timeout", text(limits.stop_timeout_s, "s"), &Rule::predicate},
+      {"supervisor_stop_timeout", text(limits.stop_timeout_s, "s"), &Rule::detection}};
+  for (const auto& [name, figure, stated] : figures) {
+    const auto rule = std::ranges::find(rules(), name, &Rule::name);
+    ASSERT_NE(rule, rules().end()) << name;
+    EXPECT_NE(std::string_view{(*rule).*stated}.find(figure), std::string_view::npos)
+        << name << " states \"" << (*rule).*stated << "\", the limit is " << figure;
   }
 }
 
