@@ -50,9 +50,9 @@ std::vector<double> largest_inaccuracy(const std::string& cause, const std::stri
 std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates, const configuration::Rig& rig,
                                        const Accuracy& accuracy) {
   if (show_jib_inertia(candidates)) candidates.push_back(jib_inertia());
-  constexpr std::array<std::string_view, 9> kCauses{
-      "motor_gain",   "coulomb_friction", "viscous_friction", "direction_asymmetry", "command_delay",
-      "cable_length", "payload_mass",     "jib_inertia",      "swing_scale"};
+  constexpr std::array<std::string_view, 8> kCauses{
+      "motor_gain",    "coulomb_friction", "viscous_friction", "direction_asymmetry",
+      "command_delay", "cable_length",     "payload_mass",     "jib_inertia"};
   std::vector<Candidate> all;
   for (const Candidate& candidate : candidates) {
     if (std::ranges::find(kCauses, candidate.cause) == kCauses.end()) continue;

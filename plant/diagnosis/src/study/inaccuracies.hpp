@@ -18,10 +18,8 @@ namespace crane::diagnosis {
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 
 /// Candidates bounded by the accuracy of the rig file: gain, friction by direction and delay of each drive,
-/// length of the cable, mass of the load, scale of each swing, and, if both drives of a tower are commanded,
-/// inertia of the jib. Without the scale, a loss of amplitude of one percent would decide between two sensor
-/// terms. The scale of a position has the effect of the gain of its drive; it is not free, nor are lags and
-/// the delay of the swing: the verdict compares them with their accuracy
+/// length of the cable, mass of the load, and, if both drives of a tower are commanded, inertia of the jib.
+/// Scales, lags and the delay of the swing are not free; the verdict compares them with their accuracy
 /// (verdict/stated_accuracy.hpp).
 [[nodiscard]] std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates,
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
