@@ -11,17 +11,17 @@
 namespace crane::dashboard {
 namespace {
 
+bus::Options on(const std::shared_ptr<bus::MemoryNetwork>& network, const char* name, crane_Source source) {
+  bus::Options options;
+  options.vendor = bus::Vendor::memory;
+  options.network = network;
+  options.participant = name;
+  options.source = source;
+  return options;
+}
+
 class RequestSenderTest : public testing::Test {
  protected:
-  static bus::Options on(const std::shared_ptr<bus::MemoryNetwork>& network, const char* name,
-                         crane_Source source) {
-    bus::Options options;
-    options.vendor = bus::Vendor::memory;
-    options.network = network;
-    options.participant = name;
-    options.source = source;
-    return options;
-  }
   std::vector<msg::Request> take_all() {
     std::vector<msg::Request> all;
     while (const auto request = requests_.take()) all.push_back(*request);
@@ -91,17 +91,9 @@ TEST_F(RequestSenderTest, AStopWithoutAnswerIsRepeatedByOtherWriters) {
 /// The supervisor refuses a request that names a status from before a stop.
 TEST(RequestSender, ARequestThatWaitsForASupervisorNamesTheStatusOfTheClick) {
   const auto network = bus::make_memory_network();
-  const auto on = [&network](const char* name, crane_Source source) {
-    bus::Options options;
-    options.vendor = bus::Vendor::memory;
-    options.network = network;
-    options.participant = name;
-    options.source = source;
-    return options;
-  };
-  bus::Bus supervisor{on("supervisor", crane_SOURCE_SUPERVISOR)};
+  bus::Bus supervisor{on(network, "supervisor", crane_SOURCE_SUPERVISOR)};
   auto statuses = supervisor.publisher(topics::supervisor);
-  bus::Bus dashboard{on("dashboard", crane_SOURCE_OPERATOR)};
+  bus::Bus dashboard{on(network, "dashboard", crane_SOURCE_OPERATOR)};
   RequestSender sender{dashboard};
   const auto publish_tick = [&statuses](std::uint64_t tick) {
     msg::SupervisorStatus status{};

@@ -1,9 +1,11 @@
 /// Effects within the accuracy of a rig file do not decide the verdict.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "laboratory/strange_lab.hpp"
@@ -156,6 +158,26 @@ TEST(StatedAccuracy, ContainsTheErrorOfTheZeroOfAnEncoderUpToHalfACount) {
     else
       EXPECT_TRUE(found.verdict == Verdict::named || found.verdict == Verdict::ambiguous) << found.sentence;
   }
+}
+
+/// A force that alternates 15 times a second changes the position less than an inaccurate gain does, however
+/// large it is beside the stated accuracy of gain and friction.
+TEST(StatedAccuracy, ContainsAQuickForceOnlyIfItIsSmallAsAForce) {
+  constexpr double kWavelength_m = 0.02, kLarge_v = 0.5, kSmall_v = 0.005;
+  const configuration::Rig rig = accurate_lab();
+  Runs train, none;
+  for (diagnosis::Run& run : runs_of_gantry({}, 0, 0)) train.push_back(prepare(std::move(run), rig));
+  const Study study(rig, train, none, {}, kUsualAccuracy);
+  const auto ripple = std::ranges::find(study.candidates(), std::string{"torque_ripple"}, &Candidate::cause);
+  ASSERT_NE(ripple, study.candidates().end());
+  const auto contains = [&](double amplitude_v) -> bool {
+    Fitted fitted;
+    fitted.effects = {{&*ripple, {amplitude_v, 0, kWavelength_m}}};
+    fitted.std_dev = {0, 0, 0};
+    return StatedAccuracy(rig, kUsualAccuracy).contains_each(study, fitted).front();
+  };
+  EXPECT_FALSE(contains(kLarge_v));
+  EXPECT_TRUE(contains(kSmall_v));
 }
 
 TEST(StatedAccuracy, ContainsAPatternThatIsSmallBesideTheFriction) {

@@ -1,7 +1,6 @@
 #pragma once
 /// Slopes of probes that one score test computes and later ones use again.
 #include <Eigen/Dense>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -10,7 +9,7 @@
 
 namespace crane::diagnosis {
 
-/// PartVectors of the outputs per unit, by window or piece.
+/// One vector per window or piece of a part of the data, for example the changes of its outputs per unit.
 using PartVectors = std::vector<Eigen::VectorXd>;
 
 /// Plain slopes of one probe: independent of the noise. Empty where the probe is not visible.
@@ -36,7 +35,7 @@ class ProbeSlopes {
 
   /// @return nullptr: unknown
   [[nodiscard]] const Known* find(std::size_t candidate, const plant::TermSetting& probe) const;
-  /// Keeps the parts that were not known.
+  /// Keeps the parts that `known` contains.
   void keep(std::size_t candidate, Known known);
 
  private:
