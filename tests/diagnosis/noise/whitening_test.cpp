@@ -111,6 +111,19 @@ Sticking sticking(std::uint64_t seed) {
   return all;
 }
 
+TEST(Whitener, FiltersEveryColumnAsIfItWereAlone) {
+  const std::vector<Eigen::VectorXd> residuals = windows(1e-4, 0.05, 0.5, 4, 11);
+  const Whitener whitener(learn(residuals, moving(residuals), kLeastNoise), moving(residuals)[0]);
+  Eigen::MatrixXd together(residuals[0].size(), 7);
+  for (Eigen::Index i = 0; i < together.cols(); ++i) together.col(i) = residuals[static_cast<std::size_t>(i)];
+  whitener.apply(together);
+  for (Eigen::Index i = 0; i < together.cols(); ++i) {
+    Eigen::MatrixXd alone = residuals[static_cast<std::size_t>(i)];
+    whitener.apply(alone);
+    EXPECT_EQ(together.col(i), alone) << "column " << i;
+  }
+}
+
 TEST(Whitener, FindsThatAnAxisSticks) {
   const Sticking data = sticking(3);
   const Disturbance learned = learn(data.residuals, data.motions, kLeastNoise);

@@ -31,7 +31,7 @@ TEST(WindowsOfALoad, HaveTheSlopesOfTheirWhitenedOutputs) {
   const double step = 0.01;
   crane.parameters.gravity_mps2 += step;
   const Replays moved = replays_of(runs, crane);
-  const auto slopes = problem.whitened(problem.plain_change(moved, fits, step), fits);
+  const auto slopes = problem.whitened({problem.plain_change(moved, fits, step)}, fits).front();
   const auto expected = problem.change(moved, fits, step);
   ASSERT_EQ(slopes.size(), expected.size());
   for (std::size_t w = 0; w < slopes.size(); ++w) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "laboratory/strange_lab.hpp"
 #include "search/compare.hpp"
@@ -57,6 +58,30 @@ TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
   again.first_nuisance = once.nuisance;
   again = study.refit_with_own_noise(again);
   EXPECT_LT(sum(once.deviance) - sum(again.deviance), 2 * kLimit) << "minus twice the log likelihood";
+}
+
+/// A fit keeps its slopes while its steps decrease the loss as predicted. With slopes of the result, a fit
+/// from there changes the values by a small part of their uncertainty.
+TEST(Refit, WithSlopesOfEarlierValuesEndsAtTheMinimum) {
+  constexpr double kSmall = 0.1;
+  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
+  const Runs train = two_runs(crane_with_drag(), rig), none;
+  Study study(rig, train, none, {}, kUsualAccuracy);
+  study.learn_disturbance();
+  const auto of_cause = [&](const char* cause) {
+    return &*std::ranges::find(study.candidates(), std::string{cause}, &Candidate::cause);
+  };
+  for (const Effects& effects :
+       {Effects{{of_cause("viscous_friction"), {0.02}}}, Effects{{of_cause("motor_gain"), {1.0}}},
+        Effects{{of_cause("command_delay"), {0.01}}, {of_cause("cable_length"), {0.0}}}}) {
+    const Fitted once = study.refit_with_own_noise(study.first_fit(effects, study.base_model()));
+    const Fitted again = study.fit(once.effects, std::numeric_limits<double>::infinity(), once.train);
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < effects.size(); ++i)
+      for (std::size_t k = 0; k < effects[i].values.size(); ++k, ++value)
+        EXPECT_NEAR(again.effects[i].values[k], once.effects[i].values[k], kSmall * once.std_dev[value])
+            << effects[i].candidate->label();
+  }
 }
 
 /// The base model with the values of the rig file and the hypothesis of a drag use slopes of the calibrated

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <numeric>
 
 #include "force/normal_equations.hpp"
 #include "parallel.hpp"
@@ -15,13 +17,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
-constexpr std::size_t kLines = 400;
+constexpr std::size_t kLines = 200;
 /// Distance of lines, in 1 / travel.
-constexpr double kLineSpacing = 0.25;
-/// First line: one wave over the travel. A longer wave has the shape of a position force.
-constexpr std::size_t kFirstLine = 4;
+constexpr double kLineSpacing = 0.5;
+/// Longest wave: one over the travel, 2 line spacings. A longer wave has the shape of a position force. The
+/// first line is one spacing below, because a peak is above both neighbours.
+constexpr double kFirstLine = 1;
+/// Number of lines whose responses are filtered together.
+constexpr std::size_t kGroup = 8;
 /// Subdivisions between two lines, so that the phase of the wave fits over the whole travel.
-constexpr std::size_t kRefinement = 8;
+constexpr std::size_t kRefinement = 16;
 /// Cosine and sine.
 constexpr Index kOfWave = 2;
 
@@ -50,38 +55,79 @@ std::vector<MatrixXd> responses_of_known_forces(const Pieces& drive) {
   return responses;
 }
 
-/// The wave of one period, fitted together with the known forces: power is the decrease of the loss beyond
-/// that by the known forces alone.
-Wave wave_of(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of, double per_length) {
-  const Index of_known = known[0].cols();
-  NormalEquations all{of_known + kOfWave};
+/// Waves of equally spaced lines, each fitted together with the known forces: power is the decrease of the
+/// loss beyond that by the known forces alone.
+struct Lines {
+  double first = 0, spacing = 0;  ///< 1 / length
+  std::size_t count = 0;
+};
+
+/// Cosines and sines of the lines along a piece.
+MatrixXd waves_along(const Pieces& drive, const Piece& piece, WaveOf of, const Lines& lines) {
+  const std::vector<double>& rate = (*drive.runs)[piece.run].motion[drive.output].rate;
+  MatrixXd waves(static_cast<Index>(piece.rows), kOfWave * static_cast<Index>(lines.count));
+  for (std::size_t k = 0; k < piece.rows; ++k) {
+    const double middle = 0.5 * (piece.position[k] + piece.position[std::min(k + 1, piece.rows - 1)]);
+    const double turn = 2 * std::numbers::pi * middle;
+    const double unit = of == WaveOf::friction ? std::copysign(1.0, rate[piece.first + k]) : 1.0;
+    std::complex<double> wave = std::polar(1.0, turn * lines.first);
+    const std::complex<double> next = std::polar(1.0, turn * lines.spacing);
+    for (Index i = 0; i < waves.cols(); i += kOfWave, wave *= next) {
+      waves(static_cast<Index>(k), i) = unit * wave.real();
+      waves(static_cast<Index>(k), i + 1) = unit * wave.imag();
+    }
+  }
+  return waves;
+}
+
+std::vector<Wave> waves_of(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of,
+                           const Lines& lines) {
+  const Index of_known = known[0].cols(), of_waves = kOfWave * static_cast<Index>(lines.count);
+  NormalEquations all{of_known + of_waves};
   for (std::size_t i = 0; i < drive.all.size(); ++i) {
     const Piece& piece = drive.all[i];
-    MatrixXd waves(static_cast<Index>(piece.rows), kOfWave);
-    for (std::size_t k = 0; k < piece.rows; ++k) {
-      const double middle = 0.5 * (piece.position[k] + piece.position[std::min(k + 1, piece.rows - 1)]);
-      const double turn = 2 * std::numbers::pi * per_length * middle;
-      const double speed = (*drive.runs)[piece.run].motion[drive.output].rate[piece.first + k];
-      const double unit = of == WaveOf::friction ? std::copysign(1.0, speed) : 1.0;
-      waves.row(static_cast<Index>(k)) << unit * std::cos(turn), unit * std::sin(turn);
-    }
-    MatrixXd both(waves.rows(), of_known + kOfWave);
-    both << known[i], response_to(drive, piece, std::move(waves));
+    MatrixXd both(static_cast<Index>(piece.rows), of_known + of_waves);
+    both << known[i], response_to(drive, piece, waves_along(drive, piece, of, lines));
     all += normal_equations(piece, both);
   }
-  const NormalEquations wave = beside_first(all, of_known);
-  const Vector2d amplitude = wave_amplitude(wave);
-  return {per_length, wave.score.dot(amplitude), amplitude};
+  std::vector<Wave> waves;
+  for (std::size_t line = 0; line < lines.count; ++line) {
+    std::vector<Index> own(static_cast<std::size_t>(of_known + kOfWave));
+    std::iota(own.begin(), own.end(), 0);
+    for (Index i = 0; i < kOfWave; ++i)
+      own[static_cast<std::size_t>(of_known + i)] = of_known + kOfWave * static_cast<Index>(line) + i;
+    NormalEquations of_line{of_known + kOfWave};
+    of_line.score = all.score(own);
+    of_line.hessian = all.hessian(own, own);
+    const NormalEquations wave = beside_first(of_line, of_known);
+    const Vector2d amplitude = wave_amplitude(wave);
+    waves.push_back(
+        {lines.first + static_cast<double>(line) * lines.spacing, wave.score.dot(amplitude), amplitude});
+  }
+  return waves;
+}
+
+/// The same on all processors.
+std::vector<Wave> waves_in_groups(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of,
+                                  const Lines& lines) {
+  std::vector<std::vector<Wave>> groups((lines.count + kGroup - 1) / kGroup);
+  parallel_for(groups.size(), [&](std::size_t i) {
+    const std::size_t first = i * kGroup;
+    groups[i] = waves_of(drive, known, of,
+                         {lines.first + static_cast<double>(first) * lines.spacing, lines.spacing,
+                          std::min(kGroup, lines.count - first)});
+  });
+  std::vector<Wave> all;
+  for (const std::vector<Wave>& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
 }
 
 /// The strongest wave between the neighbours of `peak`.
 Wave refined(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of, const Wave& peak,
              double spacing) {
-  std::vector<Wave> around(2 * kRefinement - 1);
-  parallel_for(around.size(), [&](std::size_t i) {
-    const double lines = (static_cast<double>(i) + 1) / kRefinement - 1;
-    around[i] = wave_of(drive, known, of, peak.per_length + lines * spacing);
-  });
+  const double finer = spacing / kRefinement;
+  const std::vector<Wave> around =
+      waves_in_groups(drive, known, of, {peak.per_length - spacing + finer, finer, 2 * kRefinement - 1});
   return *std::max_element(around.begin(), around.end(),
                            [](const Wave& a, const Wave& b) { return a.power < b.power; });
 }
@@ -93,12 +139,9 @@ std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count
   if (drive.all.empty() || !(travel > 0)) return {};
   const double spacing = kLineSpacing / travel;
   const std::vector<MatrixXd> known = responses_of_known_forces(drive);
-  std::vector<Wave> lines(kLines);
-  parallel_for(kLines, [&](std::size_t line) {
-    if (line + 1 >= kFirstLine) lines[line] = wave_of(drive, known, of, spacing * static_cast<double>(line));
-  });
+  const std::vector<Wave> lines = waves_in_groups(drive, known, of, {kFirstLine * spacing, spacing, kLines});
   std::vector<std::size_t> peaks;
-  for (std::size_t line = kFirstLine; line + 1 < kLines; ++line)
+  for (std::size_t line = 1; line + 1 < kLines; ++line)
     if (lines[line].power >= lines[line - 1].power && lines[line].power >= lines[line + 1].power)
       peaks.push_back(line);
   std::sort(peaks.begin(), peaks.end(),

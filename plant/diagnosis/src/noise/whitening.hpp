@@ -20,6 +20,9 @@ class Whitener {
   }
 
  private:
+  template <int kColumns>
+  void apply_to(Eigen::Ref<Eigen::MatrixXd> x, Eigen::Index first) const;
+
   struct Row {
     Eigen::Vector3d gain;
     double inverse_sd = 0;

@@ -212,11 +212,18 @@ std::vector<VectorXd> Problem::plain_change(const Replays& crane, const Fits& at
   return changes;
 }
 
-std::vector<VectorXd> Problem::whitened(const std::vector<VectorXd>& plain_slopes, const Fits& at) const {
-  std::vector<VectorXd> slopes = plain_slopes;
-  parallel_for(slopes.size(), [&](std::size_t w) {
-    whiten(w, slopes[w]);
-    slopes[w] -= at[w].basis * (at[w].basis.transpose() * slopes[w]).eval();
+std::vector<std::vector<VectorXd>> Problem::whitened(const std::vector<std::vector<VectorXd>>& plain_slopes,
+                                                     const Fits& at) const {
+  std::vector<std::vector<VectorXd>> slopes = plain_slopes;
+  std::vector<std::vector<VectorXd>*> visible;
+  for (std::vector<VectorXd>& slope : slopes)
+    if (!slope.empty()) visible.push_back(&slope);
+  parallel_for(visible.empty() ? 0 : windows_.size(), [&](std::size_t w) {
+    MatrixXd all(at[w].residual.size(), static_cast<Index>(visible.size()));
+    for (Index i = 0; i < all.cols(); ++i) all.col(i) = (*visible[static_cast<std::size_t>(i)])[w];
+    whiten(w, all);
+    all -= at[w].basis * (at[w].basis.transpose() * all).eval();
+    for (Index i = 0; i < all.cols(); ++i) (*visible[static_cast<std::size_t>(i)])[w] = all.col(i);
   });
   return slopes;
 }

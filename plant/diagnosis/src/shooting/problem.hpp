@@ -83,9 +83,9 @@ class Problem {
                                                           double step) const;
   /// Whether the crane has other freely oscillating inner coordinates than the crane of `fits`.
   [[nodiscard]] bool has_other_coordinates(const Replays& crane, const Fits& fits) const;
-  /// Whitens plain slopes, start marginal.
-  [[nodiscard]] std::vector<Eigen::VectorXd> whitened(const std::vector<Eigen::VectorXd>& plain_slopes,
-                                                      const Fits& at) const;
+  /// Whitens plain slopes, start marginal. Slopes that are empty stay empty.
+  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> whitened(
+      const std::vector<std::vector<Eigen::VectorXd>>& plain_slopes, const Fits& at) const;
   /// This problem without whitening: its starts minimise the error in m or rad.
   [[nodiscard]] Problem plain() const;
   /// Measured rows of a window, outputs one after the other. Rows without a measurement are 0, in the

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "parallel.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
@@ -11,54 +13,71 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Calls visit(block, row index) for every row of every output of the windows.
-template <class Visit>
-std::size_t visit_blocks(const Problem& problem, std::size_t first_block, Visit&& visit) {
-  std::size_t block = first_block;
+/// Rows of one output of a window that belong to one block.
+struct BlockRows {
+  std::size_t window = 0, block = 0;
+  Index first = 0, count = 0;  ///< in the vector of all outputs
+};
+
+/// Number of blocks of a window.
+std::size_t blocks_in(const Problem& problem, const Window& window) {
+  const double seconds = static_cast<double>(window.rows) * problem.runs()[window.run].run.period_s;
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(seconds / kBlock_s)));
+}
+
+struct BlockRowsOf {
+  std::vector<std::vector<BlockRows>> windows;
+  std::size_t blocks = 0;
+};
+
+/// The blocks of a window divide its rows evenly.
+BlockRowsOf block_rows_of(const Problem& problem) {
+  BlockRowsOf all;
   for (std::size_t w = 0; w < problem.windows().size(); ++w) {
     const Window& window = problem.windows()[w];
-    const double period_s = problem.runs()[window.run].run.period_s;
-    const auto count = std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::lround(static_cast<double>(window.rows) * period_s / kBlock_s)));
+    const std::size_t count = blocks_in(problem, window);
+    std::vector<BlockRows>& of_window = all.windows.emplace_back();
     for (std::size_t output = 0; output < problem.outputs().size(); ++output)
-      for (std::size_t k = 0; k < window.rows; ++k)
-        visit(w, block + k * count / window.rows, static_cast<Index>(output * window.rows + k));
-    block += count;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t first = (i * window.rows + count - 1) / count,
+                          end = ((i + 1) * window.rows + count - 1) / count;
+        of_window.push_back({w, all.blocks + i, static_cast<Index>(output * window.rows + first),
+                             static_cast<Index>(end - first)});
+      }
+    all.blocks += count;
   }
-  return block;
+  return all;
 }
 
 }  // namespace
 
 BlockScores block_scores(const Problem& problem, const Fits& fits,
                          const std::vector<std::vector<VectorXd>>& slopes, Loss loss) {
+  const BlockRowsOf rows = block_rows_of(problem);
+  const auto directions = static_cast<Index>(slopes.size());
   BlockScores scores;
-  const std::size_t directions = slopes.size();
-  const std::size_t blocks = visit_blocks(problem, 0, [](auto...) {});
-  scores.by_block = MatrixXd::Zero(static_cast<Index>(blocks), static_cast<Index>(directions));
-  scores.curvature = MatrixXd::Zero(static_cast<Index>(directions), static_cast<Index>(directions));
-  scores.curvature_of.assign(blocks, scores.curvature);
-  std::vector<VectorXd> weights;
-  for (const WindowFit& fit : fits) weights.push_back(weights_of(fit.residual, loss));
-  for (std::size_t i = 0; i < directions; ++i) {
-    if (slopes[i].empty()) continue;
-    visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
-      scores.by_block(static_cast<Index>(block), static_cast<Index>(i)) +=
-          slopes[i][w][row] * weights[w][row] * fits[w].residual[row];
-    });
-    for (std::size_t j = 0; j <= i; ++j) {
-      if (slopes[j].empty()) continue;
-      const auto row = static_cast<Index>(i), column = static_cast<Index>(j);
-      visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index k) {
-        scores.curvature_of[block](row, column) += slopes[i][w][k] * weights[w][k] * slopes[j][w][k];
-      });
-      for (MatrixXd& of_block : scores.curvature_of) {
-        of_block(column, row) = of_block(row, column);
-        scores.curvature(row, column) += of_block(row, column);
-      }
-      scores.curvature(column, row) = scores.curvature(row, column);
+  scores.by_block = MatrixXd::Zero(static_cast<Index>(rows.blocks), directions);
+  scores.curvature = MatrixXd::Zero(directions, directions);
+  scores.curvature_of.assign(rows.blocks, scores.curvature);
+  std::vector<Index> visible;
+  for (Index i = 0; i < directions; ++i)
+    if (!slopes[static_cast<std::size_t>(i)].empty()) visible.push_back(i);
+  if (visible.empty()) return scores;
+  parallel_for(rows.windows.size(), [&](std::size_t w) {
+    const VectorXd root_weights = weights_of(fits[w].residual, loss).cwiseSqrt();
+    const VectorXd residual = root_weights.cwiseProduct(fits[w].residual);
+    MatrixXd all(residual.size(), static_cast<Index>(visible.size()));
+    for (Index i = 0; i < all.cols(); ++i)
+      all.col(i) = root_weights.cwiseProduct(
+          slopes[static_cast<std::size_t>(visible[static_cast<std::size_t>(i)])][w]);
+    for (const BlockRows& at : rows.windows[w]) {
+      const auto part = all.middleRows(at.first, at.count);
+      scores.by_block(static_cast<Index>(at.block), visible) +=
+          part.transpose() * residual.segment(at.first, at.count);
+      scores.curvature_of[at.block](visible, visible) += part.transpose() * part;
     }
-  }
+  });
+  for (const MatrixXd& of_block : scores.curvature_of) scores.curvature += of_block;
   return scores;
 }
 
@@ -120,21 +139,27 @@ VectorXd solve(const MatrixXd& h, const VectorXd& g) {
 }
 
 Blocks log_variances_of(const Problem& problem) {
-  Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
-  visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
-    blocks[block] += problem.log_variance(w, static_cast<std::size_t>(row));
-  });
+  const BlockRowsOf rows = block_rows_of(problem);
+  Blocks blocks(rows.blocks, 0.0);
+  for (const std::vector<BlockRows>& of_window : rows.windows)
+    for (const BlockRows& at : of_window)
+      for (Index row = at.first; row < at.first + at.count; ++row)
+        blocks[at.block] += problem.log_variance(at.window, static_cast<std::size_t>(row));
   return blocks;
 }
 
 double sum(const Blocks& blocks) { return std::accumulate(blocks.begin(), blocks.end(), 0.0); }
 
 Blocks blocks_of(const Problem& problem, const Fits& fits) {
-  Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
-  visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
-    const double price = fits[w].start_log_determinant / static_cast<double>(fits[w].residual.size());
-    blocks[block] += loss_of(fits[w].residual[row]) + price;
-  });
+  const BlockRowsOf rows = block_rows_of(problem);
+  Blocks blocks(rows.blocks, 0.0);
+  for (const std::vector<BlockRows>& of_window : rows.windows)
+    for (const BlockRows& at : of_window) {
+      const WindowFit& fit = fits[at.window];
+      const double price = fit.start_log_determinant / static_cast<double>(fit.residual.size());
+      for (Index row = at.first; row < at.first + at.count; ++row)
+        blocks[at.block] += loss_of(fit.residual[row]) + price;
+    }
   return blocks;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Scores by block. Blocks are the units of resampling.
 #include <algorithm>
+#include <utility>
 
 #include "study/study.hpp"
 
@@ -11,6 +12,17 @@ namespace crane::diagnosis {
 struct Study::Slopes {
   std::vector<PartVectors> drive, equation_error, load;
 
+  void push_back(PlainSlope slope) {
+    drive.push_back(std::move(slope.drive));
+    equation_error.push_back(std::move(slope.equation_error));
+    load.push_back(std::move(slope.load));
+  }
+  [[nodiscard]] PlainSlope of_value(std::size_t i) const { return {drive[i], equation_error[i], load[i]}; }
+  /// Appends the slopes of `more`.
+  void append(Slopes more) {
+    for (std::size_t i = 0; i < more.drive.size(); ++i)
+      push_back({std::move(more.drive[i]), std::move(more.equation_error[i]), std::move(more.load[i])});
+  }
   /// Drops the slopes of all but the first values.
   void keep_first(std::size_t values) {
     for (auto* of : {&drive, &equation_error, &load}) of->resize(std::min(of->size(), values));

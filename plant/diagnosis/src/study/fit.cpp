@@ -33,6 +33,9 @@ constexpr double kWorthAStep = 0.3;
 /// below `loss_to_beat`.
 constexpr int kLeastRounds = 1;
 constexpr double kDecreaseMargin = 4;
+/// The slopes are computed again only if the decrease of the loss by a step differs from the predicted one by
+/// more than this share (gain ratio of a trust region: J. J. Moré, Lect. Notes Math. 630 (1978) 105).
+constexpr double kAsPredicted = 0.25;
 
 struct Flat {
   std::vector<const FreeParameter*> parameters;
@@ -129,16 +132,22 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   const double enough =
       loss == Loss::robust ? kLeastGain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
+  std::optional<Slopes> here;  // `along`, whitened
   for (int round = 0; round < kMostRounds; ++round) {
-    along = plain_slopes(best.effects, best.train, std::move(along));
-    const Slopes here = whitened(along, best.train);
-    if (round >= kLeastRounds &&
-        best.train.loss - kDecreaseMargin * predicted_decrease(block_scores(best.train, here)) > loss_to_beat)
-      return false;
-    const BlockScores both = block_scores(best.train, here, loss);
+    if (!here) {
+      along = plain_slopes(best.effects, best.train, std::move(along));
+      here = whitened(along, best.train);
+    }
+    const BlockScores both = block_scores(best.train, *here, loss);
+    if (round >= kLeastRounds && std::isfinite(loss_to_beat)) {
+      const double decrease =
+          predicted_decrease(loss == Loss::robust ? both : block_scores(best.train, *here));
+      if (best.train.loss - kDecreaseMargin * decrease > loss_to_beat) return false;
+    }
     const VectorXd gradient = both.gradient();
     const Flat flat = flatten(best.effects);
     double gained = 0;
+    bool as_predicted = true;
     const auto groups = step_groups(best.effects, apart);
     if (promised(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) < kWorthAStep * enough)
       break;
@@ -150,7 +159,8 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
         if (!step.allFinite() || step.norm() == 0) break;
         const Effects tried = moved(best.effects, step);
         Evaluation found = evaluate(train_, tried, best.train);
-        const double now = total_loss(found, loss);
+        const double now = total_loss(found, loss), decrease = promised(both, step);
+        as_predicted = as_predicted && std::abs(least - now - decrease) <= kAsPredicted * decrease;
         if (now < least) {
           moves = true;
           gained += least - now;
@@ -165,7 +175,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
       if (gained < enough) damping = kFirstDamping;
     }
     if (gained < enough) break;  // a step this small does not change the slopes
-    along = {};
+    if (!as_predicted) along = {}, here.reset();
   }
   return true;
 }

@@ -14,6 +14,21 @@ namespace crane::diagnosis {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+void Study::append_base_slopes(const Fitted& fitted, const Effects& beside, Slopes& along) const {
+  std::size_t own = 0;
+  for (const Effect& effect : fitted.effects) own += effect.values.size();
+  const ShowsIn unlike = unlike_base(fitted.effects, fitted.train);
+  if (along.drive.size() != own || slopes_of_inaccuracies_.empty() || unlike.drive || unlike.load) return;
+  std::size_t first = 0;
+  for (const Effect& present : inaccuracies_) {
+    const bool fitted_beside = std::ranges::any_of(
+        beside, [&](const Effect& inaccuracy) { return inaccuracy.candidate == present.candidate; });
+    for (std::size_t i = first; fitted_beside && i < first + present.values.size(); ++i)
+      along.push_back(slopes_of_inaccuracies_[i]);
+    first += present.values.size();
+  }
+}
+
 void Study::fit_inaccuracies(Fitted& fitted, Slopes& along) {
   const Effects beside =
       fitted.effects.empty() ? inaccuracies_beside({}) : visible_inaccuracies_beside(fitted.effects);
@@ -22,6 +37,7 @@ void Study::fit_inaccuracies(Fitted& fitted, Slopes& along) {
   joint.effects = fitted.effects;
   joint.effects.insert(joint.effects.end(), beside.begin(), beside.end());
   joint.train = fitted.train;
+  append_base_slopes(fitted, beside, along);
   descend(joint, Loss::robust, std::numeric_limits<double>::infinity(), along, 0);
   const auto first = joint.effects.begin() + static_cast<std::ptrdiff_t>(fitted.effects.size());
   for (auto inaccuracy = first; inaccuracy != joint.effects.end(); ++inaccuracy)

@@ -24,4 +24,13 @@ void ProbeSlopes::keep(std::size_t candidate, Known known) {
   if (known.load) found->load = std::move(known.load);
 }
 
+const Shape* ProbeSlopes::strongest(std::size_t candidate) const {
+  const auto found = strongest_.find(candidate);
+  return found == strongest_.end() ? nullptr : &found->second;
+}
+
+void ProbeSlopes::keep_strongest(std::size_t candidate, const Shape& shape) {
+  strongest_.insert_or_assign(candidate, shape);
+}
+
 }  // namespace crane::diagnosis

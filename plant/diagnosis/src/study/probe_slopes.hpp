@@ -2,9 +2,11 @@
 /// Slopes of probes that one score test computes and later ones use again.
 #include <Eigen/Dense>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include "crane/diagnosis/candidate.hpp"
 #include "crane/plant/parameters.hpp"
 
 namespace crane::diagnosis {
@@ -19,8 +21,8 @@ struct PlainSlope {
 
 /// Plain slopes of the probes of the base model, part by part. The base models of two score tests differ only
 /// in the inaccuracies of the rig file: their slopes are nearly equal. A score test is valid for any
-/// direction; a slightly different one costs little power. A hypothesis whose effects are not visible in a
-/// part also has the slopes of the base model there.
+/// direction; a slightly different one costs little power. A hypothesis also has the slopes of the base model
+/// in a part in which its effects change the simulation little (Study::unlike_base).
 class ProbeSlopes {
  public:
   struct Drive {
@@ -38,8 +40,13 @@ class ProbeSlopes {
   /// Keeps the parts that `known` contains.
   void keep(std::size_t candidate, Known known);
 
+  /// Strongest shape of a candidate in the last score test of the base model. @return nullptr: unknown
+  [[nodiscard]] const Shape* strongest(std::size_t candidate) const;
+  void keep_strongest(std::size_t candidate, const Shape& shape);
+
  private:
   std::vector<std::vector<Known>> of_candidate_;
+  std::map<std::size_t, Shape> strongest_;
 };
 
 }  // namespace crane::diagnosis

@@ -2,6 +2,7 @@
 #include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <span>
@@ -20,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kSignFlips = 999;
+constexpr Index kSignFlips = 999;
 constexpr std::size_t kWaves = 4;
 constexpr std::size_t kStartShapes = 3;
 constexpr std::array kStartShares{1.0, 0.4};
@@ -34,16 +35,21 @@ struct Directions {
   MatrixXd by_block, curvature;
   bool one_sided = false;
 
-  [[nodiscard]] double statistic(const VectorXd& signs) const {
-    const VectorXd sum = by_block.transpose() * signs;
-    if (one_sided && sum[0] <= 0) return 0;
-    const VectorXd solved = solve(by_block.transpose() * by_block, sum);
-    return std::max(0.0, sum.dot(solved));
-  }
-  [[nodiscard]] double p_value(const VectorXd& signs) const {
-    return chi_square_p(statistic(signs), by_block.cols());
+  /// The directions B = by_block as (B'B)^(-1/2) B', up to a rotation: the sum of squares of their sums over
+  /// the blocks is chi-square. The first one has the sign of the first direction.
+  [[nodiscard]] MatrixXd standardised() const {
+    MatrixXd products = by_block.transpose() * by_block;
+    products.diagonal() += 1e-9 * products.diagonal() + VectorXd::Constant(products.rows(), 1e-12);
+    return products.llt().matrixL().solve(by_block.transpose());
   }
 };
+
+/// Statistic by column. @param sums  of standardised directions, over the blocks
+Eigen::RowVectorXd statistics(const MatrixXd& sums, bool one_sided) {
+  Eigen::RowVectorXd all = sums.colwise().squaredNorm();
+  if (one_sided) all = (sums.row(0).array() > 0).select(all, 0.0);
+  return all;
+}
 
 /// The last `fresh` directions of `both`, with all earlier directions projected out.
 Directions beside_known(const BlockScores& both, Index fresh) {
@@ -64,9 +70,8 @@ void judge(const Directions& d, Score& score) {
   const VectorXd amounts = solve(d.curvature, total);
   score.amounts.assign(amounts.data(), amounts.data() + amounts.size());
   score.gain = d.one_sided && total[0] <= 0 ? 0 : std::max(0.0, total.dot(amounts));
-  const VectorXd as_they_are = VectorXd::Ones(d.by_block.rows());
-  score.statistic = d.statistic(as_they_are);
-  score.p_value = d.p_value(as_they_are);
+  score.statistic = statistics(d.standardised().rowwise().sum(), d.one_sided)[0];
+  score.p_value = chi_square_p(score.statistic, d.by_block.cols());
 }
 
 const VectorXd& residual_of(const WindowFit& fit) { return fit.residual; }
@@ -81,21 +86,26 @@ double gain_of(const Parts& parts, const std::vector<VectorXd>& change) {
   return gain;
 }
 
-/// Share of random sign flips of the blocks of which some p value is at most `least`.
+/// Share of random sign flips of the blocks in which some p value is at most `least`.
 double p_value_of_largest(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  std::vector<VectorXd> signs(kSignFlips);
   const Index blocks = directions.empty() ? 0 : directions[0].by_block.rows();
-  for (VectorXd& flip : signs) {
-    flip.resize(blocks);
-    for (Index b = 0; b < blocks; ++b) flip[b] = (random() & 1U) != 0U ? 1.0 : -1.0;
+  MatrixXd signs(blocks, kSignFlips);
+  for (Index f = 0; f < signs.cols(); ++f)
+    for (Index b = 0; b < blocks; ++b) signs(b, f) = (random() & 1U) != 0U ? 1.0 : -1.0;
+  // The p value decreases with the statistic: the largest one of each number of directions is enough.
+  std::map<Index, Eigen::RowVectorXd> largest;
+  for (const Directions& d : directions) {
+    const Eigen::RowVectorXd of_flips = statistics(d.standardised() * signs, d.one_sided);
+    Eigen::RowVectorXd& most =
+        largest.try_emplace(d.by_block.cols(), Eigen::RowVectorXd::Zero(of_flips.size())).first->second;
+    most = most.cwiseMax(of_flips);
   }
-  std::vector<double> smallest(kSignFlips, 1.0);
-  parallel_for(kSignFlips, [&](std::size_t f) {
-    for (const Directions& d : directions) smallest[f] = std::min(smallest[f], d.p_value(signs[f]));
-  });
   std::size_t as_small = 1;
-  for (const double value : smallest) as_small += value <= least ? 1 : 0;
+  for (Index f = 0; f < signs.cols(); ++f)
+    as_small += std::ranges::any_of(largest, [&](const auto& of_freedom) {
+      return chi_square_p(of_freedom.second[f], of_freedom.first) <= least;
+    });
   return static_cast<double>(as_small) / (kSignFlips + 1);
 }
 
@@ -162,11 +172,14 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
   return shapes;
 }
 
-std::vector<Score> Study::places(const Effects& effects) const {
+std::vector<Score> Study::places(const Effects& effects, const ProbeSlopes& known) const {
   std::vector<std::vector<Shape>> shapes(candidates_.size());
   parallel_for(candidates_.size(), [&](std::size_t c) {
-    if (std::ranges::none_of(effects, [&](const Effect& e) { return e.candidate == &candidates_[c]; }))
-      shapes[c] = shapes_of(candidates_[c], effects);
+    if (std::ranges::any_of(effects, [&](const Effect& e) { return e.candidate == &candidates_[c]; })) return;
+    // The score of a shape that rings needs an estimate of the starts of its inner coordinates.
+    const Shape* strongest =
+        candidates_[c].ringing_starts_at && !effects.empty() ? known.strongest(c) : nullptr;
+    shapes[c] = strongest != nullptr ? std::vector{*strongest} : shapes_of(candidates_[c], effects);
   });
   std::vector<Score> all;
   for (std::size_t c = 0; c < candidates_.size(); ++c)
@@ -180,7 +193,7 @@ struct Study::Probing {
   const Effects& effects;
   const Evaluation& at;
   PartVectors unmoved;  ///< plain residuals of the equation error of `at`
-  ShowsIn unlike_base;  ///< parts in which the effects are visible
+  ShowsIn unlike_base;  ///< parts in which the simulation differs from that of the base model
   const ProbeSlopes& known;
 };
 
@@ -204,6 +217,7 @@ double Study::add_probes(const Probing& probing, const Score& place, Slopes& slo
   // A probe far from zero describes a rough effect in the load but not in the drives.
   const ShowsIn parts{candidate.drive && (!candidate.rough || train_.load.empty()), candidate.load};
   const Evaluation& at = probing.at;
+  Slopes plain;
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
     const ProbeSlopes::Known* known = probing.known.find(place.candidate, shape.probes[p]);
     const bool drive_known = known != nullptr && known->drive && !probing.unlike_base.drive;
@@ -228,8 +242,9 @@ double Study::add_probes(const Probing& probing, const Score& place, Slopes& slo
     if (parts.drive && drive_known)
       slope.drive = known->drive->windows, slope.equation_error = known->drive->equation_error;
     if (parts.load && load_known) slope.load = *known->load;
-    append_whitened(slope, at, slopes);
+    plain.push_back(std::move(slope));
   }
+  slopes.append(whitened(plain, at));
   return own;
 }
 
@@ -255,11 +270,11 @@ std::vector<Visibility> Study::excitation(const std::vector<Score>& places, cons
 
 ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed,
                         ProbeSlopes& probe_slopes) const {
-  std::vector<Score> scores = places(effects);
+  std::vector<Score> scores = places(effects, probe_slopes);
   const Slopes known = slopes(effects, at);
   const Probing probing{effects, at,
                         train_.equation_error.plain_residuals(replays_of(train_.runs, with(effects))),
-                        shown_in(effects), probe_slopes};
+                        unlike_base(effects, at), probe_slopes};
   std::vector<std::vector<ProbeSlopes::Known>> fresh(scores.size());
   std::vector<Directions> directions(scores.size());
   std::vector<Slopes> kept(effects.empty() ? scores.size() : 0);
@@ -291,6 +306,7 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     const auto end = std::find_if(first, scores.end(),
                                   [&](const Score& score) { return score.candidate != first->candidate; });
     table.best.push_back(best_shape(candidates_[first->candidate], {first, end}));
+    if (effects.empty()) probe_slopes.keep_strongest(first->candidate, table.best.back().shape);
     first = end;
   }
   return table;

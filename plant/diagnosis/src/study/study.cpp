@@ -46,6 +46,27 @@ bool is_null(const Effect& effect) {
   return true;
 }
 
+/// Rms difference between two simulations, as a share of the rms motion, up to which the slopes of one serve
+/// as slopes of the other: a direction whose cosine to the true one is sqrt(1 - kLikeBase^2) has all but 4 %
+/// of its information.
+constexpr double kLikeBase = 0.2;
+
+/// Whether the simulations in windows differ by at most kLikeBase of the motion, in each output.
+bool moves_alike(const Problem& problem, const Fits& fits, const Fits& base) {
+  for (std::size_t output = 0; output < problem.outputs().size(); ++output) {
+    double difference = 0, motion = 0;
+    for (std::size_t w = 0; w < fits.size(); ++w) {
+      const auto rows = static_cast<Index>(problem.windows()[w].rows);
+      const auto first = static_cast<Index>(output) * rows;
+      const VectorXd now = fits[w].simulated.segment(first, rows);
+      difference += (now - base[w].simulated.segment(first, rows)).squaredNorm();
+      motion += (now.array() - now.mean()).matrix().squaredNorm();
+    }
+    if (!(difference <= kLikeBase * kLikeBase * motion)) return false;
+  }
+  return true;
+}
+
 Fits fit_of(const Problem& problem, const Replays& crane) {
   return problem.empty() ? Fits{} : problem.fit(crane);
 }
@@ -153,6 +174,8 @@ void Study::calibrate() {
     if (gained < kWorthARound) break;
     least -= gained;
   }
+  slopes_of_inaccuracies_.clear();
+  for (std::size_t i = 0; i < along.drive.size(); ++i) slopes_of_inaccuracies_.push_back(along.of_value(i));
 }
 
 void Study::whiten_training(const Nuisance& nuisance) {
@@ -219,11 +242,10 @@ PlainSlope Study::plain_slope(const Replays& crane, const Evaluation& at, double
   return slope;
 }
 
-void Study::append_whitened(const PlainSlope& plain, const Evaluation& at, Slopes& slopes) const {
-  slopes.drive.push_back(plain.drive.empty() ? PartVectors{} : train_.drive.whitened(plain.drive, at.drive));
-  slopes.equation_error.push_back(
-      plain.equation_error.empty() ? PartVectors{} : train_.equation_error.whitened(plain.equation_error));
-  slopes.load.push_back(plain.load.empty() ? PartVectors{} : train_.load.whitened(plain.load, at.load));
+ShowsIn Study::unlike_base(const Effects& effects, const Evaluation& at) const {
+  const ShowsIn visible = shown_in(effects);
+  return {visible.drive && !moves_alike(train_.drive, at.drive, base_train_.drive),
+          visible.load && !moves_alike(train_.load, at.load, base_train_.load)};
 }
 
 BlockScores Study::block_scores(const Evaluation& at, const Slopes& slopes, Loss loss) const {
@@ -246,20 +268,17 @@ Study::Slopes Study::plain_slopes(const Effects& effects, const Evaluation& at, 
       double& value = moved[e].values[i];
       const double step = difference_step(candidate.parameters[i], value);
       value += step;
-      PlainSlope slope = plain_slope(replays_of(train_.runs, with(moved)), at, step,
-                                     {candidate.drive, candidate.load}, unmoved);
-      known.drive.push_back(std::move(slope.drive));
-      known.equation_error.push_back(std::move(slope.equation_error));
-      known.load.push_back(std::move(slope.load));
+      known.push_back(plain_slope(replays_of(train_.runs, with(moved)), at, step,
+                                  {candidate.drive, candidate.load}, unmoved));
     }
   }
   return known;
 }
 
 Study::Slopes Study::whitened(const Slopes& plain, const Evaluation& at) const {
-  Slopes result;
-  for (std::size_t i = 0; i < plain.drive.size(); ++i)
-    append_whitened({plain.drive[i], plain.equation_error[i], plain.load[i]}, at, result);
+  Slopes result{train_.drive.whitened(plain.drive, at.drive), {}, train_.load.whitened(plain.load, at.load)};
+  for (const PartVectors& slope : plain.equation_error)
+    result.equation_error.push_back(slope.empty() ? PartVectors{} : train_.equation_error.whitened(slope));
   return result;
 }
 

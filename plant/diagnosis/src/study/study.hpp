@@ -214,6 +214,9 @@ class Study {
   [[nodiscard]] std::vector<HeldError> zero_errors(Effects& effects) const;
   /// Errors of the masses of the drives, if the load mass is a value of the effects.
   [[nodiscard]] std::vector<HeldError> mass_errors(const Effects& effects) const;
+  /// Appends the slopes of the inaccuracies `beside` of the base model, if the simulation with the effects is
+  /// like that of the base model. @param along  of the effects
+  void append_base_slopes(const Fitted& fitted, const Effects& beside, Slopes& along) const;
   /// Fits the inaccuracies of the rig file: an error within the accuracy belongs to the base model, not to
   /// the noise.
   void calibrate();
@@ -238,14 +241,16 @@ class Study {
   /// equation error of `at`; used if the drive is among the parts
   [[nodiscard]] PlainSlope plain_slope(const Replays& crane, const Evaluation& at, double step, ShowsIn parts,
                                        const PartVectors& unmoved) const;
-  /// Appends whitened slopes.
-  void append_whitened(const PlainSlope& plain, const Evaluation& at, Slopes& slopes) const;
+  /// Parts in which the simulation with the effects differs from that of the base model by more than
+  /// kLikeBase. In the others, a slope of the base model is nearly that of the hypothesis.
+  [[nodiscard]] ShowsIn unlike_base(const Effects& effects, const Evaluation& at) const;
   /// Smallest visible amount of each candidate. @param slopes  by place, of its probes
   [[nodiscard]] std::vector<Visibility> excitation(const std::vector<Score>& places,
                                                    const std::vector<Slopes>& slopes,
                                                    const Evaluation& at) const;
-  /// Every shape of every candidate that is not among the effects.
-  [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
+  /// Every shape of every candidate that is not among the effects. Beside effects, a cause that adds a
+  /// natural frequency has the shape that was the strongest one for the base model.
+  [[nodiscard]] std::vector<Score> places(const Effects& effects, const ProbeSlopes& known) const;
   struct Probing;
   /// Appends the changes of the residuals by the probes of a candidate's shape.
   /// @param fresh  receives slopes that were not known
@@ -286,6 +291,7 @@ class Study {
   std::vector<Candidate> candidates_, inaccurate_;
   Effects inaccuracies_;  ///< present ones
   Nuisance uncalibrated_;
+  std::vector<PlainSlope> slopes_of_inaccuracies_;  ///< of the calibrated base model, by value; or empty
   Body train_, test_;
   Problem whole_runs_;  ///< of the load, training
   Evaluation base_train_;
