@@ -57,6 +57,36 @@ TEST(SubsetOfColumns, ALoadWithTheMeasuredMotionOfItsSupportNeedsNoCommand) {
   EXPECT_FALSE(found.held_out.baseline_rms.contains("trolley_position_m"));
 }
 
+/// The rig file of a pendulum states no drive; the measured position of its support is used all the same.
+TEST(SubsetOfColumns, APendulumMayHangBelowASupportThatIsMovedByHand) {
+  configuration::Rig pendulum = subset_rig("pendulum");
+  const configuration::Rig gantry = subset_rig();
+  pendulum.plant.load_mass_kg = gantry.plant.load_mass_kg;
+  pendulum.start.position[plant::kHoist] = gantry.start.position[plant::kHoist];
+  const auto moved_by_hand = [&](std::uint64_t seed) {
+    const auto table = without(measured_with(seed, 1.62), {"trolley_voltage_v"});
+    return load_run(table, pendulum, "hand_" + std::to_string(seed) + ".csv");
+  };
+  EXPECT_THAT(moved_by_hand(1).notes.at(0), HasSubstr("the load alone is compared"));
+  Request request;
+  request.most_effects = 1;
+  const Diagnosis found = diagnose(pendulum, {moved_by_hand(1).runs.at(0), moved_by_hand(2).runs.at(0)},
+                                   moved_by_hand(3).runs, request);
+  EXPECT_EQ(found.verdict, Verdict::parameter) << found.sentence;
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes[0].name, "cable_length");
+  EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.12, 0.01);
+}
+
+TEST(SubsetOfColumns, AMotionThatTheRigFileDoesNotDescribeIsRefused) {
+  recording::Table table = without(measured_with(1, 1.5), {"slew_angle_rad"});
+  std::vector<double> turning = *table.find("trolley_position_m");
+  table.columns.push_back({"slew_angle_rad", turning});
+  EXPECT_THAT(refused(table), AllOf(HasSubstr("slew_angle_rad"), HasSubstr("no such axis or sensor")));
+  table.columns.back().values.assign(turning.size(), 0.0);
+  EXPECT_EQ(refused(table), "");
+}
+
 /// No cause of the library explains an intermittent friction.
 TEST(RubbingDrive, IsNotNamedCorrectByTheVerdict) {
   const auto rubbed = [](std::uint64_t seed) {

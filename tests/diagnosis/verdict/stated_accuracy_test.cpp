@@ -180,6 +180,25 @@ TEST(StatedAccuracy, ContainsAQuickForceOnlyIfItIsSmallAsAForce) {
   EXPECT_TRUE(contains(kSmall_v));
 }
 
+/// A mean over a window delays by half the window: the accuracy of times is half a control period.
+TEST(StatedAccuracy, ContainsAMeanOfTheSwingOverOneControlPeriod) {
+  const configuration::Rig rig = accurate_lab();
+  Runs train, none;
+  for (diagnosis::Run& run : runs_of_gantry({}, 0, 0)) train.push_back(prepare(std::move(run), rig));
+  const Study study(rig, train, none, {}, kUsualAccuracy);
+  const auto mean =
+      std::ranges::find(study.candidates(), std::string{"swing_moving_average"}, &Candidate::cause);
+  ASSERT_NE(mean, study.candidates().end());
+  const auto contains = [&](double window_s) -> bool {
+    Fitted fitted;
+    fitted.effects = {{&*mean, {window_s}}};
+    fitted.std_dev = {0};
+    return StatedAccuracy(rig, kUsualAccuracy).contains_each(study, fitted).front();
+  };
+  EXPECT_TRUE(contains(0.9 * rig.period_s));
+  EXPECT_FALSE(contains(1.1 * rig.period_s));
+}
+
 TEST(StatedAccuracy, ContainsAPatternThatIsSmallBesideTheFriction) {
   configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/drive_axis.toml");
   const double gain = rig.plant.trolley_gain_mps2pv;

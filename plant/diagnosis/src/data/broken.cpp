@@ -126,9 +126,10 @@ void add_finding(const std::string& column, const char* what, const std::vector<
 }  // namespace
 
 double largest_credible_change(const configuration::Rig& rig, Output output, double time_s) {
-  constexpr double kDriveSpeedRatio = 5, kSlowestDrive = 0.1, kSwingSpeedRatio = 3;
-  if (output == kTrolleyPosition || output == kSlewAngle)
-    return kDriveSpeedRatio * std::max(rig.drives[output].max_speed, kSlowestDrive) * time_s;
+  constexpr double kDriveSpeedRatio = 5, kSlowestDrive = 0.1, kSwingSpeedRatio = 3, kHand_mps = 5;
+  const bool drive = output == kTrolleyPosition || output == kSlewAngle;
+  if (drive && !rig.drives[output].present) return kHand_mps * time_s;
+  if (drive) return kDriveSpeedRatio * std::max(rig.drives[output].max_speed, kSlowestDrive) * time_s;
   const double length_m = std::max(rig.start.position[plant::kHoist], 0.05);
   return kSwingSpeedRatio * 2 * plant::swing_radps(rig.plant.gravity_mps2, length_m) * time_s;
 }

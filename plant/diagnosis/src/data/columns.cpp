@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "crane/diagnosis/mapping.hpp"
 #include "data/median.hpp"
@@ -41,13 +42,15 @@ class Checks {
 
  private:
   void find_columns() {
+    // The support of a pendulum may be moved by hand.
     const std::array<bool, kOutputs> expected{
-        rig_.drives[plant::kTrolley].present, rig_.drives[plant::kSlew].present,
-        rig_.measures(plant::kSwingRadial), rig_.measures(plant::kSwingTangential)};
+        rig_.drives[plant::kTrolley].present || rig_.kind == configuration::RigKind::pendulum,
+        rig_.drives[plant::kSlew].present, rig_.measures(plant::kSwingRadial),
+        rig_.measures(plant::kSwingTangential)};
     bool any = false;
     for (std::size_t i = 0; i < kOutputs; ++i) {
       columns_.outputs[i] = {kOutputNames[i], table_.find(kOutputNames[i])};
-      if (!expected[i]) columns_.outputs[i].values = nullptr;
+      if (!expected[i]) leave_out(columns_.outputs[i]);
       any = any || columns_.outputs[i].values != nullptr;
     }
     if (!any)
@@ -61,6 +64,13 @@ class Checks {
     columns_.stretch = table_.find(kStretchColumn);
     if (const auto* mass = table_.find(kLoadMassColumn); mass != nullptr && !mass->empty())
       columns_.load_mass_kg = mass->front();
+  }
+
+  /// A column that the rig file does not describe. @post its values are not used
+  void leave_out(Source& source) {
+    const auto* values = std::exchange(source.values, nullptr);
+    if (values == nullptr || !(range_of(*values) > 0)) return;
+    findings_.problem(source.name, "moves", "the rig file has no such axis or sensor; leave the column out");
   }
 
   /// All measured drives that move must have a command, or none. Without commands, the motion of the drives
@@ -150,7 +160,7 @@ class Checks {
 
   void check_travel() {
     const auto* trolley = columns_.outputs[kTrolleyPosition].values;
-    if (trolley == nullptr) return;
+    if (trolley == nullptr || !rig_.drives[plant::kTrolley].present) return;
     const configuration::Drive& drive = rig_.drives[plant::kTrolley];
     const double travel = drive.high_limit - drive.low_limit;
     if (range_of(*trolley) > 5 * travel)
@@ -213,8 +223,8 @@ void hold_axes_at_rest(recording::Table& table, const configuration::Rig& rig, F
     const auto column = std::ranges::find(table.columns, std::string_view{kOutputNames[axis]},
                                           &recording::Table::Column::name);
     if (!commanded || table.find(kCommands[axis]) != nullptr || column == table.columns.end()) continue;
-    const double range = range_of(column->values);
-    if (!(range > 0 && range * rig.encoders[axis].counts_per_unit < kRestingCounts + kRounding_counts))
+    const double range = range_of(column->values), counts_per_unit = rig.encoders[axis].counts_per_unit;
+    if (!(counts_per_unit > 0 && range > 0 && range * counts_per_unit < kRestingCounts + kRounding_counts))
       continue;
     std::vector<double> finite;
     std::ranges::copy_if(column->values, std::back_inserter(finite),

@@ -37,6 +37,7 @@ std::vector<double> largest_inaccuracy(const std::string& cause, const std::stri
   if (cause == "payload_mass") return {accuracy.values * rig.plant.load_mass_kg};
   const double time_s = accuracy.times_periods * rig.period_s;
   if (cause == "command_delay" || cause == "swing_delay") return {time_s};
+  if (cause == "swing_moving_average") return {2 * time_s};  // a mean delays by half its window
   if (cause == "actuator_lag") return {time_s, time_s};
   const KnownFriction friction = known_friction(rig, axis);
   const double coulomb_v = accuracy.friction * friction.least_coulomb_v,

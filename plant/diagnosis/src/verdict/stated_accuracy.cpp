@@ -20,7 +20,7 @@ namespace {
 /// scale.
 bool is_limit(const Candidate& candidate) {
   return candidate.cause != "cable_length" && candidate.cause != "payload_mass" &&
-         candidate.cause != "swing_delay";
+         candidate.cause != "swing_delay" && candidate.cause != "swing_moving_average";
 }
 
 /// Another quantity with the same accuracy has the same effect: of the scale of the swing that of the
