@@ -19,8 +19,8 @@ namespace crane::diagnosis {
 
 /// Candidates bounded by the accuracy of the rig file: gain, friction by direction and delay of each drive,
 /// length of the cable, mass of the load, and, if both drives of a tower are commanded, inertia of the jib.
-/// Scales, lags, and the delay and averaging of the swing are not free; the verdict compares them with their accuracy
-/// (verdict/stated_accuracy.hpp).
+/// Scales, lags, and the delay and averaging of the swing are not free; the verdict compares them with their
+/// accuracy (verdict/stated_accuracy.hpp).
 [[nodiscard]] std::vector<Candidate> inaccuracies_of(std::vector<Candidate> candidates,
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 
