@@ -83,6 +83,9 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.at_least("creeping_ratio", limits.creeping_ratio, 1);
   problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
                    "at least one must be present");
+  problems.require(limits.zones.size() <= control::kMostZones, "zones",
+                   static_cast<double>(limits.zones.size()),
+                   "must be at most " + std::to_string(control::kMostZones));
 }
 
 // Rules that relate several values. @pre each value is inside its range

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "crane/plant/pendulum.hpp"
 #include "ramped_stop.hpp"
@@ -16,18 +17,12 @@ using plant::kHoist;
 using plant::kSlew;
 using plant::kTrolley;
 
-struct Closest {
-  std::size_t zone = 0;
-  double clearance_m = std::numeric_limits<double>::infinity();
-};
-Closest closest_of(const Limits& limits, const ReachedSpace& reach) noexcept {
-  Closest closest;
-  for (std::size_t i = 0; i < limits.zones.size(); ++i) {
-    const double gap_m = control::clearance_m(limits.zones[i], reach, limits.clearance.suspension_height_m);
-    if (!(gap_m >= closest.clearance_m)) closest = {i, gap_m};  // a zone with NaN counts as the closest
-  }
-  return closest;
+double gap_of(const Limits& limits, std::size_t zone, const ReachedSpace& reach) noexcept {
+  return control::clearance_m(limits.zones[zone], reach, limits.clearance.suspension_height_m);
 }
+
+/// True while a load inside the margin of the zone leaves it.
+bool leaves(const ZoneMemory& memory, std::size_t zone) noexcept { return memory.permitted_m[zone] < 0; }
 
 /// Signed distance that a controlled stop needs in the direction of motion beyond the distance of a ramped
 /// stop, unit.
@@ -42,10 +37,11 @@ double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
   return speed > 0 ? travel : -travel;
 }
 
-/// True when the reached space of a ramped stop, shifted by deceleration_travel() of each axis, touches a
-/// zone.
-bool is_ahead(const Limits& limits, const ZoneInput& input, const RampedStop& stop,
-              const ReachedSpace& now) noexcept {
+/// @return the first zone that the reached space of a ramped stop touches when it moves on by
+/// deceleration_travel() of each axis; nothing: no such zone. Ignores zones that the load leaves: their
+/// clearance is below 0 already.
+std::optional<std::size_t> zone_ahead(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory,
+                                      const RampedStop& stop, const ReachedSpace& now) noexcept {
   constexpr int kPoints = 8;
   const double omega = plant::swing_radps(limits.machine.crane.gravity_mps2, stop.load.longest_m);
   const double trolley = deceleration_travel(limits, kTrolley, input.speed[kTrolley], omega);
@@ -58,9 +54,25 @@ bool is_ahead(const Limits& limits, const ZoneInput& input, const RampedStop& st
                              .y_m = centre[1],
                              .radius_m = now.radius_m,
                              .lowest_m = now.lowest_m - share * lower};
-    if (closest_of(limits, reach).clearance_m < 0) return true;
+    for (std::size_t zone = 0; zone < limits.zones.size(); ++zone)
+      if (!leaves(memory, zone) && gap_of(limits, zone, reach) < 0) return zone;
   }
-  return false;
+  return std::nullopt;
+}
+
+/// Sets the permitted clearance of each zone when the brakes open. Arming again inside the same margin
+/// permits no further approach to the zone.
+void begin_watching(const Limits& limits, const ZoneInput& input, const ReachedSpace& reach,
+                    ZoneMemory& memory) noexcept {
+  const ReachedSpace resting = control::resting_reach(
+      limits.clearance, limits.machine.crane.gravity_mps2, input.position[kTrolley],
+      limits.axis[kSlew].present ? input.position[kSlew] : 0, limits.machine.cable(input.position[kHoist]));
+  for (std::size_t zone = 0; zone < limits.zones.size(); ++zone) {
+    double& permitted_m = memory.permitted_m[zone];
+    const double gap_m = gap_of(limits, zone, reach), before_m = permitted_m < 0 ? permitted_m : gap_m;
+    permitted_m = gap_of(limits, zone, resting) < 0 ? std::min(std::max(before_m, gap_m), 0.0) : 0;
+  }
+  memory.watching = true;
 }
 
 }  // namespace
@@ -92,24 +104,22 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
   if (memory.samples < 2) return {.ahead = true, .touched = true};
   const RampedStop stop = ramped_stop(limits, input, memory);
   const ReachedSpace reach = reach_of(limits, stop);
-  const Closest closest = closest_of(limits, reach);
-  const double gap_m = closest.clearance_m;
-  if (!memory.watching) {
-    const ReachedSpace resting = control::resting_reach(
-        limits.clearance, limits.machine.crane.gravity_mps2, input.position[kTrolley],
-        limits.axis[kSlew].present ? input.position[kSlew] : 0, limits.machine.cable(input.position[kHoist]));
-    // Arming again inside the same margin permits no further approach to the zone.
-    const double before_m = memory.permitted_m < 0 ? memory.permitted_m : gap_m;
-    memory.permitted_m =
-        closest_of(limits, resting).clearance_m < 0 ? std::min(std::max(before_m, gap_m), 0.0) : 0;
-    memory.watching = true;
+  if (!memory.watching) begin_watching(limits, input, reach, memory);
+  const auto ahead = zone_ahead(limits, input, memory, stop, reach);
+  ZoneVerdict verdict{.ahead = ahead.has_value()};
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t zone = 0; zone < limits.zones.size(); ++zone) {
+    double& permitted_m = memory.permitted_m[zone];
+    const double gap_m = gap_of(limits, zone, reach);
+    const double spare_m = gap_m - permitted_m + (leaves(memory, zone) ? kLeaveTolerance_m : 0);
+    if (!(spare_m >= least_m)) {  // true for NaN, too
+      least_m = spare_m;
+      verdict.zone = zone, verdict.clearance_m = gap_m;
+    }
+    verdict.touched = verdict.touched || !(spare_m >= 0);
+    permitted_m = std::min(0.0, std::max(permitted_m, gap_m));
   }
-  const bool leaves = memory.permitted_m < 0;
-  const ZoneVerdict verdict{.ahead = !leaves && is_ahead(limits, input, stop, reach),
-                            .touched = !(gap_m >= memory.permitted_m - (leaves ? kLeaveTolerance_m : 0)),
-                            .zone = closest.zone,
-                            .clearance_m = gap_m};
-  memory.permitted_m = std::min(0.0, std::max(memory.permitted_m, gap_m));
+  if (ahead && !verdict.touched) verdict.zone = *ahead, verdict.clearance_m = gap_of(limits, *ahead, reach);
   return verdict;
 }
 

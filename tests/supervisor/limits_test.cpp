@@ -55,6 +55,14 @@ TEST(SupervisorLimits, NeedAtLeastOneAxisAndIgnoreAbsentOnes) {
   EXPECT_THAT(problems(limits), IsEmpty());
 }
 
+TEST(SupervisorLimits, HaveAtMostTheZonesThatTheFilterWatches) {
+  Limits limits = test_limits();
+  limits.zones.resize(control::kMostZones);
+  EXPECT_THAT(problems(limits), IsEmpty());
+  limits.zones.emplace_back();
+  EXPECT_THAT(problems(limits), ElementsAre("zones = 101: must be at most 100"));
+}
+
 TEST(SupervisorLimits, AllowTargetsInsideTheSoftLimitsOnly) {
   const AxisLimits trolley = test_limits().axis[0];
   EXPECT_TRUE(target_allowed(trolley, 0.31));

@@ -1,6 +1,7 @@
 #pragma once
 // The simulated crane with the step of the real supervisor, without a bus. The test demands any voltage.
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "crane/configuration/rig.hpp"
@@ -16,6 +17,12 @@ using supervisor::PerAxis;
 
 inline configuration::Rig deployed_rig(const std::string& name) {
   return configuration::load_rig(std::string{CRANE_RIGS} + "/" + name + ".toml");
+}
+
+/// Value of an environment variable that gives a number of runs or a seed.
+inline std::uint64_t number(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): one thread
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
 class GuardedCrane {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <random>
@@ -20,11 +19,6 @@ double between(Random& random, double low, double high) {
   return std::uniform_real_distribution{low, high}(random);
 }
 bool chance(Random& random, double probability) { return std::bernoulli_distribution{probability}(random); }
-
-std::uint64_t number(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): one thread
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
 
 control::Zone random_zone(Random& random, const configuration::Rig& rig, std::size_t i) {
   control::Zone zone{.name = "zone " + std::to_string(i)};

@@ -109,7 +109,7 @@ struct TickOutput {
   HomingFailure homing_failure = HomingFailure::none;  ///< result of the last homing
   bool watchdog_permission = false;
   bool stop_motion = false;
-  std::size_t zone = 0;  ///< Cause::zone: index of the zone closest to the reached space (zone_filter.hpp)
+  std::size_t zone = 0;  ///< Cause::zone: index of the zone that requires the stop (zone_filter.hpp)
   std::array<Answer, kRequests> answers{};
   std::uint64_t clamped_count = 0;
   std::uint64_t rejected_count = 0;

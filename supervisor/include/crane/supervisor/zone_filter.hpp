@@ -70,21 +70,25 @@ struct ZoneMemory {
   std::array<PastSample, kZoneSpan + 1> recent{};  ///< newest first
   std::size_t samples = 0;                         ///< number of valid elements of `recent`
   PerAxis applied_v{}, previous_applied_v{};
-  bool watching = false;   ///< true: the brakes were open in the previous tick
-  double permitted_m = 0;  ///< m, least permitted clearance; below 0 while a load inside a margin leaves it
+  bool watching = false;  ///< true: the brakes were open in the previous tick
+  /// m, least permitted clearance of each zone of the limits; below 0 while a load inside the margin of this
+  /// zone leaves it
+  std::array<double, control::kMostZones> permitted_m{};
 };
 
 struct ZoneVerdict {
   bool ahead = false;      ///< true: without a controlled stop now, a ramped stop will be necessary
   bool touched = false;    ///< true: the reached space touches a zone: 0 V, ramped stop
-  std::size_t zone = 0;    ///< index of the closest zone
+  std::size_t zone = 0;    ///< index of the zone that requires the stop; without a stop, of the zone whose
+                           ///< clearance exceeds its permitted clearance least
   double clearance_m = 0;  ///< m, distance between the reached space and this zone; <= 0: they touch
 };
 
 /// A crane whose resting load has a clearance below 0 (a changed rig file, an axis moved by hand) may be
-/// armed and leave the zone. Its clearance must not fall by more than kLeaveTolerance_m below the largest
-/// clearance since it fell below 0, even if the crane is armed several times. With this tolerance the crane
-/// can leave with the acceleration 2 g kLeaveTolerance_m / L: 0.4 m/s2 for a cable of 1 m.
+/// armed and leave the zone. Its clearance from this zone must not fall by more than kLeaveTolerance_m below
+/// the largest clearance since it fell below 0, even if the crane is armed several times. Every other zone
+/// stops the crane as usual. With this tolerance the crane can leave with the acceleration
+/// 2 g kLeaveTolerance_m / L: 0.4 m/s2 for a cable of 1 m.
 inline constexpr double kLeaveTolerance_m = 0.02;
 
 /// Stores one sample. Call for every sample, also while the brakes are closed.
@@ -92,7 +96,7 @@ void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memo
 
 /// Filters the voltages of one tick while the brakes are open. Without zones the verdict is
 /// default-constructed.
-/// @pre observe_load() has received the newest sample
+/// @pre observe_load() has received the newest sample; at most control::kMostZones zones
 [[nodiscard]] ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input,
                                        ZoneMemory& memory) noexcept;
 

@@ -3,6 +3,7 @@
 /// cylinder in coordinates of the ground: x along the jib at slew angle 0 (gantry: along the track), y in the
 /// direction of positive slew, z upwards from the ground. docs/zones.md.
 #include <array>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <string>
@@ -11,6 +12,10 @@
 #include "crane/plant/parameter_fields.hpp"
 
 namespace crane::control {
+
+/// Largest number of zones of a rig. The supervisor checks every zone in every tick: 5 us for a hundred
+/// (docs/zones.md).
+inline constexpr std::size_t kMostZones = 100;
 
 enum class ZoneShape { box, cylinder };
 
