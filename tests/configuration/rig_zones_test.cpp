@@ -1,6 +1,8 @@
 // [[zone]] and [clearance] of a rig file.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "crane/configuration/extended_file.hpp"
 #include "crane/configuration/rig.hpp"
 
@@ -18,13 +20,17 @@ std::string box(const std::string& name, const std::string& more = "") {
          "size_x_m = 0.2\nsize_y_m = 0.3\ntop_m = 1.5\n" + more;
 }
 
-std::vector<std::string> zone_problems(const std::string& added, const std::string& rig = kZonedTower) {
+std::vector<std::string> text_problems(const std::string& text) {
   try {
-    (void)parse_rig(file_text(rig) + added, std::string{CRANE_RIGS} + "/rig.toml");
+    (void)parse_rig(text, std::string{CRANE_RIGS} + "/rig.toml");
     return {};
   } catch (const ConfigurationError& error) {
     return error.problems();
   }
+}
+
+std::vector<std::string> zone_problems(const std::string& added, const std::string& rig = kZonedTower) {
+  return text_problems(file_text(rig) + added);
 }
 
 TEST(RigZones, AreAtMostAHundred) {
@@ -97,6 +103,26 @@ TEST(RigZones, MustNotContainAHomingPosition) {
       std::string{CRANE_RIGS} + "/homing_servo_to_go.toml");
   ASSERT_THAT(found, testing::Not(testing::IsEmpty()));
   EXPECT_THAT(found.front(), HasSubstr("contains the homing position of the trolley"));
+}
+
+TEST(RigZones, MustNotContainThePositionAfterHomingAllAxes) {
+  std::string text = file_text(std::string{CRANE_RIGS} + "/homing_servo_to_go.toml");
+  const std::string low = "mark = \"limit_low\"";
+  text.replace(text.find(low), low.size(), "mark = \"limit_high\"");  // of the trolley
+  const auto rig = parse_rig(text, std::string{CRANE_RIGS} + "/rig.toml");
+  const double trolley_m = rig.drives[plant::kTrolley].homing.position,
+               slew_rad = rig.drives[plant::kSlew].homing.position;
+  ASSERT_EQ(trolley_m, rig.drives[plant::kTrolley].high_limit);
+  const auto post_at = [&](double angle_rad) {
+    return "\n[clearance]\nload_radius_m = 0.05\nwind_mps2 = 0\n\n[[zone]]\nname = \"post\"\n"
+           "shape = \"cylinder\"\nposition_x_m = " +
+           std::to_string(trolley_m * std::cos(angle_rad)) +
+           "\nposition_y_m = " + std::to_string(trolley_m * std::sin(angle_rad)) +
+           "\nradius_m = 0.02\nbottom_m = -2\ntop_m = 0\n";
+  };
+  EXPECT_THAT(text_problems(text + post_at(slew_rad)),
+              testing::ElementsAre(HasSubstr("zone post contains the position after homing all axes")));
+  EXPECT_THAT(text_problems(text + post_at(slew_rad - 0.2)), testing::IsEmpty());
 }
 
 TEST(RigZones, NeedASwingingLoad) {

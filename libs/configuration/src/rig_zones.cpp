@@ -6,11 +6,9 @@
 namespace crane::configuration {
 namespace {
 
+using control::kMostZones;
 using control::Zone;
 using control::ZoneShape;
-
-/// The supervisor checks every zone in every tick: 5 us for a hundred (docs/zones.md).
-constexpr std::size_t kMostZones = 100;
 
 void check_size(TomlTable& table, const char* key, double size, bool needed, const char* shape) {
   if (needed && size == 0)
@@ -67,6 +65,27 @@ bool contains(const Rig& rig, const Zone& zone, const plant::PerAxis& position) 
   return control::clearance_m(zone, reach, rig.clearance.suspension_height_m) <= 0;
 }
 
+/// Reports the positions at which homing leaves the crane: the homing position of each axis, with the other
+/// axes at [start], and of all axes together.
+void check_homing_positions(TomlTable& table, const Rig& rig, const Zone& zone) {
+  plant::PerAxis all = rig.start.position;
+  bool found = false;
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
+    if (!rig.drives[i].homes()) continue;
+    plant::PerAxis home = rig.start.position;
+    home[i] = all[i] = rig.drives[i].homing.position;
+    if (!contains(rig, zone, home)) continue;
+    found = true;
+    table.problem("position_x_m", "zone " + zone.name + " contains the homing position of the " +
+                                      std::string{plant::kCoordinates[i].name} +
+                                      ", with the radius of the load");
+  }
+  if (!found && all != rig.start.position && contains(rig, zone, all))
+    table.problem("position_x_m", "zone " + zone.name +
+                                      " contains the position after homing all axes, with the radius of the "
+                                      "load");
+}
+
 void check_place(TomlTable& table, const Rig& rig, const Zone& zone) {
   if (!can_be_reached(rig, zone)) {
     table.problem("position_x_m", "zone " + zone.name + " is outside of the space that the load can reach");
@@ -75,15 +94,7 @@ void check_place(TomlTable& table, const Rig& rig, const Zone& zone) {
   if (contains(rig, zone, rig.start.position))
     table.problem("position_x_m",
                   "zone " + zone.name + " contains the position of [start], with the radius of the load");
-  for (std::size_t i = 0; i < plant::kAxes; ++i) {
-    if (!rig.drives[i].homes()) continue;
-    plant::PerAxis home = rig.start.position;
-    home[i] = rig.drives[i].homing.position;
-    if (contains(rig, zone, home))
-      table.problem("position_x_m", "zone " + zone.name + " contains the homing position of the " +
-                                        std::string{plant::kCoordinates[i].name} +
-                                        ", with the radius of the load");
-  }
+  check_homing_positions(table, rig, zone);
 }
 
 bool is_whole(const Zone& zone) {
