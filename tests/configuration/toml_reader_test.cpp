@@ -53,6 +53,20 @@ TEST(TomlReader, GivesDefaultsForMissingKeys) {
   EXPECT_THAT(problems_of(root), IsEmpty());
 }
 
+TEST(TomlReader, RefusesIntegersThatADoubleCannotRepresent) {
+  TomlTable root(
+      "a = 9223372036854775807\nb = 9007199254740993\nc = [1, -9223372036854775807]\nd = 9007199254740992\n",
+      "f.toml");
+  EXPECT_TRUE(std::isnan(root.number("a", Range::any())));
+  EXPECT_TRUE(std::isnan(root.number("b", Range::any(), 1)));
+  EXPECT_THAT(root.numbers("c", Range::any()), ElementsAre(1, testing::IsNan()));
+  EXPECT_EQ(root.number("d", Range::any()), 9007199254740992.0);
+  const std::string rule = ": must be a decimal number: 64-bit floating point cannot represent this integer";
+  EXPECT_THAT(problems_of(root),
+              ElementsAre("f.toml:1: a = 9223372036854775807" + rule, "f.toml:2: b = 9007199254740993" + rule,
+                          "f.toml:3: c[1] = -9223372036854775807" + rule));
+}
+
 TEST(TomlReader, NamesFileLineNameValueAndRule) {
   TomlTable root("\n[drive]\nvolt_limit_v = 12\n", "f.toml");
   EXPECT_TRUE(std::isnan(root.table("drive").number("volt_limit_v", Range::above(0, 10))));

@@ -11,6 +11,8 @@ namespace crane::configuration {
 namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kInexact =
+    "must be a decimal number: 64-bit floating point cannot represent this integer";
 constexpr int kNoInteger = std::numeric_limits<int>::min();
 
 /// Moves nodes instead of copying them, because only a move preserves file and line of a node.
@@ -83,9 +85,9 @@ double TomlTable::checked_number(const Value& value, std::string_view key, const
     problem(key, "must be a number");
     return kNotANumber;
   }
-  const double number = *value.node->value<double>();
-  if (range.contains(number)) return number;
-  problem(key, range.rule());
+  const auto number = value.node->value<double>();
+  if (number && range.contains(*number)) return *number;
+  problem(key, number ? range.rule() : kInexact);
   return kNotANumber;
 }
 
@@ -165,12 +167,15 @@ std::vector<double> TomlTable::numbers(std::string_view key, const Range& range)
   if (array == nullptr) problem(key, "must be an array of numbers");
   for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
     const toml::node& element = *array->get(i);
-    numbers.push_back(element.value<double>().value_or(kNotANumber));
-    if (element.is_number() && range.contains(numbers.back())) continue;
+    const auto number = element.value<double>();
+    const bool usable = number && element.is_number() && range.contains(*number);
+    numbers.push_back(usable ? *number : kNotANumber);
+    if (usable) continue;
     document_->report(&element, *place_,
                       value.name + '[' + std::to_string(i) + "] = " + written(element) + ": " +
-                          (element.is_number() ? range.rule() : "must be a number"));
-    numbers.back() = kNotANumber;
+                          (!element.is_number() ? "must be a number"
+                           : number             ? range.rule()
+                                                : kInexact));
   }
   return numbers;
 }
