@@ -1,6 +1,7 @@
 #include "cli/stick_keys.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace crane::cli {
 namespace {
@@ -31,6 +32,7 @@ constexpr std::array kSequences{Sequence{"\x1b[A", 0, 1},
 }  // namespace
 
 void StickKeys::press(std::size_t axis, double share, double now_s) {
+  if (!keys_move_) return;
   Key& key = key_[axis];
   const bool repeats = key.share == share && now_s <= key.until_s;
   key = {share, now_s + (repeats ? kRepeat_s : kFirst_s)};
@@ -62,7 +64,7 @@ void StickKeys::take_letter(char letter) {
       break;
     case 'r':
       release();
-      returns_ = true;
+      returns_ = keys_move_;
       break;
     default:
       break;
@@ -92,6 +94,18 @@ bool StickKeys::take_sequence(double now_s) {
 void StickKeys::take(std::string_view bytes, double now_s) {
   pending_ += bytes;
   while (!pending_.empty() && take_sequence(now_s)) continue;
+}
+
+void StickKeys::take_pass(std::string_view bytes, double now_s) {
+  const double arrived_s =
+      std::exchange(previous_pass_s_, now_s).value_or(-std::numeric_limits<double>::infinity());
+  const bool backlog = now_s - arrived_s > kFirst_s || bytes.size() > kMostNewBytes;
+  if (backlog && !bytes.empty()) settled_s_ = now_s + kRepeat_s;
+  const bool stops = bytes.find_first_of(" q") != std::string_view::npos;
+  keys_move_ = !backlog && !stops && now_s >= settled_s_;
+  take(bytes, arrived_s);
+  if (!keys_move_) pending_.clear();
+  keys_move_ = true;
 }
 
 std::array<double, 3> StickKeys::deflection(double now_s) const {

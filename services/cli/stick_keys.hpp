@@ -1,7 +1,12 @@
 #pragma once
 /// Keys of a terminal as a stick. A terminal reports no release of a key: a key acts for a limited time,
 /// which each repetition renews. Time is an argument.
+///
+/// A terminal does not report when a key was pressed either. The keys that a *pass* reads may have been
+/// pressed immediately after the previous pass, or earlier if they waited on a connection. A key that can be
+/// old must not move the crane.
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,11 +21,19 @@ class StickKeys {
   /// Time for which a key acts after its press: longer than the delay until the keyboard repeats the key.
   static constexpr double kFirst_s = 0.6;
   static constexpr double kRepeat_s = 0.15;  ///< time for which a key acts after a repetition
+  /// Largest number of bytes of a pass whose keys can be new. A keyboard that repeats a key of 6 bytes (shift
+  /// and arrow) 30 times per second sends 6 bytes in a pass of 20 ms and 54 bytes in a pass of 0.3 s.
+  static constexpr std::size_t kMostNewBytes = 64;
 
   /// Modes at the start; the keys m and i change them.
   explicit StickKeys(bool micro = false, bool inching = false) : micro_{micro}, inching_{inching} {}
 
-  /// Takes bytes of the terminal; a sequence may be split between calls.
+  /// Takes all bytes that wait in the terminal; call in every pass, also without bytes. The keys act from the
+  /// time of the previous pass on: a key that is found after kFirst_s does not move the crane. Arrow keys,
+  /// page keys and r have no effect in the first pass, in a pass that is longer than kFirst_s or finds more
+  /// than kMostNewBytes, for kRepeat_s after such a pass, and in a pass with space or q.
+  void take_pass(std::string_view bytes, double now_s);
+  /// Takes bytes that arrived at `now_s`; a sequence may be split between calls.
   void take(std::string_view bytes, double now_s);
   /// Deflection of trolley, slew and hoist; 0 while inching is on.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
@@ -49,6 +62,9 @@ class StickKeys {
   bool take_sequence(double now_s);
 
   std::string pending_;
+  std::optional<double> previous_pass_s_;
+  double settled_s_ = -1;  ///< until then keys can be a part of an old backlog
+  bool keys_move_ = true;  ///< false: arrow keys, page keys and r have no effect
   std::array<Key, 3> key_{};
   double last_s_ = -1;
   std::optional<InchingStep> step_;

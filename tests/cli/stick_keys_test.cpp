@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 namespace crane::cli {
 namespace {
@@ -134,6 +135,135 @@ TEST(StickKeys, MayArriveByteByByte) {
 TEST(StickKeys, OfOtherProgramsHaveNoEffect) {
   EXPECT_EQ(after("\x1b[H\x1b[1;5A\x1b[200~abc\xC3\xA4\n"), kReleased);
   EXPECT_EQ(after("\x1b\x1b[A"), (Deflection{1, 0, 0})) << "the escape key, then an arrow";
+}
+
+/// A terminal and the passes that read it. Time advances only in pass().
+class Terminal {
+ public:
+  explicit Terminal(bool inching = false) : keys{false, inching} { pass(0); }
+
+  void type(std::string_view bytes) { waiting_ += bytes; }
+  void type(std::string_view key, int times) {
+    for (int i = 0; i < times; ++i) waiting_ += key;
+  }
+  /// Reads all that waits, `after_s` after the previous pass.
+  void pass(double after_s = kPass_s) {
+    now_s += after_s;
+    keys.take_pass(std::exchange(waiting_, {}), now_s);
+  }
+  [[nodiscard]] Deflection deflection() const { return keys.deflection(now_s); }
+  /// Time for which the stick stays deflected from now on, with passes and without further keys.
+  double moves_s() {
+    const double from_s = now_s;
+    for (int i = 0; i < 200 && deflection() != kReleased; ++i) pass();
+    return now_s - from_s;
+  }
+
+  static constexpr double kPass_s = 0.02;
+  double now_s = 1;
+  StickKeys keys;
+
+ private:
+  std::string waiting_;
+};
+
+TEST(StickKeysOfATerminal, ThatAreHeldDownActWithoutAGap) {
+  for (const double repeat_s : {1.0 / 60, 1.0 / 30, 1.0 / 10}) {
+    Terminal terminal;
+    double press_s = terminal.now_s;
+    for (int i = 0, presses = 0; i < 300; ++i) {
+      for (; press_s <= terminal.now_s; press_s += presses++ == 0 ? 0.5 : repeat_s)
+        terminal.type("\x1b[1;2A");
+      terminal.pass();
+      ASSERT_EQ(terminal.deflection(), (Deflection{kMicroSpeed, 0, 0}))
+          << i << ", every " << repeat_s << " s";
+    }
+    EXPECT_LT(terminal.moves_s(), StickKeys::kRepeat_s + 1.5 * Terminal::kPass_s);
+  }
+}
+
+TEST(StickKeysOfATerminal, ThatArriveAsABurstDoNotMove) {
+  Terminal terminal;
+  terminal.type("\x1b[A", 1300);
+  terminal.pass();
+  EXPECT_EQ(terminal.moves_s(), 0);
+  terminal.type("\x1b[A", 10);  // the rest of the burst, from a slow connection
+  terminal.pass();
+  EXPECT_EQ(terminal.moves_s(), 0);
+  for (int i = 0; i < 10; ++i) terminal.pass();
+  terminal.type("\x1b[A");
+  terminal.pass();
+  EXPECT_EQ(terminal.deflection(), (Deflection{1, 0, 0})) << "a new key acts";
+}
+
+TEST(StickKeysOfATerminal, ThatWaitedDuringAPauseDoNotMove) {
+  for (const int keys : {1, 10, 150}) {
+    Terminal terminal;
+    terminal.type("\x1b[A", keys);
+    terminal.pass(5);
+    EXPECT_EQ(terminal.moves_s(), 0) << keys;
+    terminal.type("\x1b[A", keys);
+    terminal.pass(0.7);
+    EXPECT_EQ(terminal.moves_s(), 0) << keys;
+  }
+}
+
+TEST(StickKeysOfATerminal, ActAtMostUntilTheirTimeSinceThePreviousPass) {
+  Terminal terminal;
+  terminal.type("\x1b[A");
+  terminal.pass(0.4);
+  EXPECT_NE(terminal.deflection(), kReleased);
+  EXPECT_LT(terminal.moves_s(), 0.2 + 1.5 * Terminal::kPass_s);
+}
+
+TEST(StickKeysOfATerminal, ReleaseWithASpaceAnywhereAmongThem) {
+  for (const double pause_s : {Terminal::kPass_s, 3.0})
+    for (const int after : {0, 1, 500}) {
+      Terminal terminal;
+      terminal.type("\x1b[A");
+      terminal.pass();
+      ASSERT_NE(terminal.deflection(), kReleased);
+      terminal.type("\x1b[A", 300);
+      terminal.type(" ");
+      terminal.type("\x1b[A", after);
+      terminal.pass(pause_s);
+      EXPECT_TRUE(terminal.keys.take_stop());
+      EXPECT_EQ(terminal.moves_s(), 0) << after << " keys after the space bar, pause " << pause_s << " s";
+    }
+}
+
+TEST(StickKeysOfATerminal, EndTheProgramWithAQAnywhereAmongThem) {
+  Terminal terminal;
+  terminal.type("\x1b[A", 300);
+  terminal.type("q\x1b[A");
+  terminal.pass(3);
+  EXPECT_TRUE(terminal.keys.quits());
+  EXPECT_EQ(terminal.moves_s(), 0);
+}
+
+TEST(StickKeysOfATerminal, ThatWaitedChangeTheModeButCauseNoStepOrReturn) {
+  Terminal terminal{true};
+  terminal.type("m\x1b[Ar");
+  terminal.pass(3);
+  EXPECT_TRUE(terminal.keys.micro());
+  EXPECT_EQ(terminal.keys.take_step(), std::nullopt);
+  EXPECT_FALSE(terminal.keys.take_return());
+}
+
+TEST(StickKeysOfATerminal, ThatWereTypedBeforeTheFirstPassDoNotMove) {
+  StickKeys keys;
+  keys.take_pass("\x1b[A", 1);
+  EXPECT_EQ(keys.deflection(1), kReleased);
+}
+
+TEST(StickKeysOfATerminal, DoNotContinueASequenceOfABacklog) {
+  Terminal terminal;
+  terminal.type("\x1b[1;2");
+  terminal.pass(3);
+  for (int i = 0; i < 10; ++i) terminal.pass();
+  terminal.type("C");
+  terminal.pass();
+  EXPECT_EQ(terminal.deflection(), kReleased);
 }
 
 TEST(StickKeys, OfRandomBytesStayWithinAFullDeflectionThatEnds) {

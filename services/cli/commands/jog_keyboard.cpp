@@ -9,6 +9,7 @@
 #include "cli/jog_loop.hpp"
 #include "cli/stick_keys.hpp"
 #include "cli/terminal.hpp"
+#include "crane/runtime/node.hpp"
 #include "jog.hpp"
 
 namespace crane::cli {
@@ -34,13 +35,19 @@ class RawTerminal {
   RawTerminal(const RawTerminal&) = delete;
   RawTerminal& operator=(const RawTerminal&) = delete;
 
-  /// @return the bytes that have arrived; "q" when the terminal has been closed
+  /// @return all bytes that have arrived, and "q" at the end when the terminal has been closed. A stop key
+  /// must not wait behind older keys. kMost ends the reading when the bytes arrive without end.
   [[nodiscard]] static std::string read_keys() {
+    constexpr std::size_t kMost = 1 << 16;
+    std::string keys;
+    std::array<char, 4096> bytes{};
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-    if (poll(&input, 1, 0) <= 0) return "";
-    std::array<char, 64> bytes{};
-    const auto count = read(STDIN_FILENO, bytes.data(), bytes.size());
-    return count > 0 ? std::string(bytes.data(), static_cast<std::size_t>(count)) : "q";
+    while (keys.size() < kMost && poll(&input, 1, 0) > 0) {
+      const auto count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+      if (count <= 0) return keys + "q";
+      keys.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+    return keys;
   }
 
  private:
@@ -53,7 +60,7 @@ class Keyboard : public OperatorStick {
 
   void read(double now_s) override {
     const bool micro = keys_.micro(), inching = keys_.inching();
-    keys_.take(RawTerminal::read_keys(), now_s);
+    keys_.take_pass(RawTerminal::read_keys(), now_s);
     if (keys_.micro() != micro || keys_.inching() != inching) print_mode();
   }
   [[nodiscard]] std::optional<std::array<double, 3>> deflection(double now_s) const override {
@@ -89,6 +96,8 @@ int jog_by_keyboard(const StickOptions& options) {
   Keyboard keyboard{options.micro, options.inching, options.step_m};
   auto bus = open_bus(options.bus, crane_SOURCE_OPERATOR);
   JogLoop loop{bus, keyboard, {options.selected, options.step_m, options.timeout_s}};
+  keyboard.read(static_cast<double>(runtime::monotonic_ns()) /
+                1e9);  // keys that were typed before the next line appears move nothing
   std::cout << "up/down: trolley, left/right: slew, PgUp/PgDn: hoist, shift or m: micro-speed, i: inching, "
                "space: release,\nr: return to the stop point, q: end"
             << std::endl;
