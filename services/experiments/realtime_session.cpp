@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <utility>
 
 #include "crane/runtime/process.hpp"
 #include "crane/supervisor/states.hpp"
@@ -52,6 +53,7 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
   while (const auto sample = statuses_.take()) {
     table_.add(*(status_ = sample));
     end_if_stopped(*sample);
+    end_if_replaced(sample->move);
   }
   operator_.receive();
   if (runtime::monotonic_ns() < next_meanwhile_ns_) return;
@@ -68,6 +70,16 @@ void RealtimeSession::end_if_stopped(const msg::SupervisorStatus& status) {
   was_in_hold_ = was_in_hold_ || armed;
   if (stopping || !routine || (was_in_hold_ && !armed))
     throw SessionError("the crane was stopped: " + in_words(status));
+}
+
+/// Each accepted move has a new number. A stop has ended the session before, therefore the crane is armed
+/// here.
+void RealtimeSession::end_if_replaced(const msg::AcceptedMove& move) {
+  const bool begins = move.number != std::exchange(move_number_, move.number);
+  const bool own = first_id_ > 0 && move.request_id >= first_id_ && move.request_id <= last_id_;
+  if (!ends_at_stops_ || !was_in_hold_ || !begins || own) return;
+  throw SessionError(std::string{"replaced by a later move of another operator ("} + move.client +
+                     "): this program sends no further move");
 }
 
 void RealtimeSession::disarm() {
@@ -96,6 +108,8 @@ std::string RealtimeSession::refusal_of(const stack::OperatorRequest& wanted, co
   auto seen = wanted;
   if (status_) seen.seen = status_->header;
   const auto id = operator_.send(seen);
+  if (first_id_ == 0) first_id_ = id;
+  last_id_ = id;
   std::optional<msg::Reply> reply;
   if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },
              std::chrono::seconds{2}))

@@ -43,9 +43,12 @@ class RealtimeSession {
   void wait(std::chrono::nanoseconds duration);
   /// From now on, requests and waits throw SessionError when the crane is stopping, in ESTOP or in FAULT,
   /// when a cause other than a routine one (supervisor::is_routine()) has stopped it, and when any cause
-  /// stops it after it was in HOLD: a program must not reset what it did not stop.
+  /// stops it after it was in HOLD: a program must not reset what it did not stop. They also throw when the
+  /// supervisor has accepted a move of another client after the first HOLD: the session must not replace the
+  /// move of another operator.
   void end_at_stops() { ends_at_stops_ = true; }
-  /// Disarms the crane and waits until its brakes close. Afterwards, stops end nothing. @throws SessionError
+  /// Disarms the crane and waits until its brakes close. Afterwards, stops and moves of others end nothing.
+  /// @throws SessionError
   void disarm();
 
   /// All measurements since the last call of start_table().
@@ -60,6 +63,8 @@ class RealtimeSession {
   void take(std::chrono::nanoseconds timeout);
   /// @throws SessionError, see end_at_stops()
   void end_if_stopped(const msg::SupervisorStatus& status);
+  /// @throws SessionError, see end_at_stops()
+  void end_if_replaced(const msg::AcceptedMove& move);
   template <class Condition>
   bool until(Condition condition, std::chrono::nanoseconds patience);
 
@@ -74,6 +79,8 @@ class RealtimeSession {
   std::optional<msg::State> state_;
   std::optional<msg::SupervisorStatus> status_;
   std::int64_t next_meanwhile_ns_ = 0;
+  std::uint64_t first_id_ = 0, last_id_ = 0;  ///< of the requests of this session; 0: none sent yet
+  std::uint64_t move_number_ = 0;             ///< AcceptedMove.number of the newest status
   bool ends_at_stops_ = false, was_in_hold_ = false;
 };
 

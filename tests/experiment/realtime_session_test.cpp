@@ -1,4 +1,5 @@
-// A session resets the crane only after a routine stop. A scripted supervisor answers over the memory bus.
+// A session resets the crane only after a routine stop, and ends when another operator moves the crane. A
+// scripted supervisor answers over the memory bus.
 #include "experiments/realtime_session.hpp"
 
 #include <gmock/gmock.h>
@@ -114,6 +115,131 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) {
       return std::string{crane::supervisor::name_of(static_cast<crane::supervisor::Cause>(test.param.cause))};
     });
+
+/// Accepts every request and executes every move within kMoveTicks. `Replaced` states when the move of
+/// another operator begins.
+class SharedSupervisor {
+ public:
+  enum class Replaced { never, during_the_move, in_the_same_tick, in_hold };
+
+  SharedSupervisor(const std::shared_ptr<bus::MemoryNetwork>& network, Replaced replaced)
+      : bus_{options_on(network, "supervisor", crane_SOURCE_SUPERVISOR)},
+        replaced_{replaced},
+        thread_{[this] { run(); }} {}
+  ~SharedSupervisor() { end(); }
+  void end() {
+    ends_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  [[nodiscard]] int moves() const { return moves_; }
+
+ private:
+  static constexpr int kMoveTicks = 10;
+
+  void run() {
+    while (!ends_) {
+      if (moving_ticks_ > 0 && --moving_ticks_ == 0) status_.state = crane_STATE_HOLD;
+      if (replaced_ == Replaced::during_the_move && moving_ticks_ == kMoveTicks / 2) begin_of_another();
+      if (replaced_ == Replaced::in_hold && moves_ == 1 && moving_ticks_ == 0) begin_of_another();
+      status_.header.sample_time_ns = runtime::monotonic_ns();
+      ++status_.header.tick;
+      EXPECT_TRUE(statuses_.publish(status_));
+      msg::State state{};
+      state.header = status_.header;
+      EXPECT_TRUE(states_.publish(state));
+      bus_.wait(std::chrono::milliseconds{10});
+      while (const auto request = requests_.take()) answer(*request);
+    }
+  }
+  void begin(std::uint64_t id) {
+    status_.state = crane_STATE_RUN;
+    ++status_.move.number;
+    status_.move.request_id = id;
+    moving_ticks_ = kMoveTicks;
+  }
+  void begin_of_another() {
+    begin(1);
+    replaced_ = Replaced::never;
+  }
+  void answer(const msg::Request& request) {
+    msg::Reply reply{};
+    reply.request_id = request.id;
+    runtime::assign(reply.client, request.client);
+    reply.accepted = true;
+    if (request.kind == crane_REQUEST_RESET) status_.state = crane_STATE_READY;
+    if (request.kind == crane_REQUEST_ARM) status_.state = crane_STATE_HOLD;
+    const bool moves = request.kind == crane_REQUEST_MOVE && request.id != 0;
+    if (moves) begin(request.id), ++moves_;
+    if (moves && replaced_ == Replaced::in_the_same_tick) begin_of_another();
+    status_.cause = status_.state == crane_STATE_LOCKED ? crane_CAUSE_START : crane_CAUSE_NONE;
+    EXPECT_TRUE(replies_.publish(reply));
+  }
+
+  bus::Bus bus_;
+  bus::Subscriber<msg::Request> requests_ = bus_.subscriber(topics::request);
+  bus::Subscriber<msg::Request> requests_of_a_recorder_ = bus_.subscriber(topics::request);
+  bus::Publisher<msg::Reply> replies_ = bus_.publisher(topics::reply);
+  bus::Publisher<msg::SupervisorStatus> statuses_ = bus_.publisher(topics::supervisor);
+  bus::Publisher<msg::State> states_ = bus_.publisher(topics::state);
+  msg::SupervisorStatus status_ = [] {
+    msg::SupervisorStatus locked{};
+    locked.state = crane_STATE_LOCKED;
+    locked.cause = crane_CAUSE_START;
+    return locked;
+  }();
+  Replaced replaced_;
+  int moving_ticks_ = 0;
+  std::atomic<int> moves_ = 0;
+  std::atomic<bool> ends_ = false;
+  std::thread thread_;
+};
+
+/// @return the reason for which the session ended before its second move was executed; empty: it did not end
+std::string drive_twice(const std::shared_ptr<bus::MemoryNetwork>& network) {
+  bus::Bus bus{options_on(network, "session", crane_SOURCE_OPERATOR)};
+  RealtimeSession session{bus, [] {}};
+  session.end_at_stops();
+  try {
+    session.arm();
+    for (const double target_m : {0.5, 0.6}) {
+      session.move_to({true, false, false}, {target_m, 0, 0}, std::chrono::seconds{5});
+      session.wait(std::chrono::milliseconds{100});
+    }
+  } catch (const SessionError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class SessionWhoseMoveIsReplaced : public testing::TestWithParam<SharedSupervisor::Replaced> {};
+
+TEST_P(SessionWhoseMoveIsReplaced, EndsWithoutAnotherMove) {
+  const auto network = bus::make_memory_network();
+  SharedSupervisor supervisor{network, GetParam()};
+  EXPECT_THAT(drive_twice(network), testing::HasSubstr("replaced by a later move"));
+  supervisor.end();
+  EXPECT_EQ(supervisor.moves(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, SessionWhoseMoveIsReplaced,
+                         testing::Values(SharedSupervisor::Replaced::during_the_move,
+                                         SharedSupervisor::Replaced::in_the_same_tick,
+                                         SharedSupervisor::Replaced::in_hold));
+
+TEST(SessionAlone, ReplacesItsOwnMoves) {
+  const auto network = bus::make_memory_network();
+  SharedSupervisor supervisor{network, SharedSupervisor::Replaced::never};
+  EXPECT_EQ(drive_twice(network), "");
+  bus::Bus bus{options_on(network, "session", crane_SOURCE_OPERATOR)};
+  RealtimeSession session{bus, [] {}};
+  session.end_at_stops();
+  session.wait(std::chrono::milliseconds{50});
+  for (int i = 0; i < 20; ++i)
+    session.request({.kind = crane_REQUEST_MOVE, .selected = {true, false, false}}, "move");
+  session.wait(std::chrono::milliseconds{50});
+  supervisor.end();
+  EXPECT_EQ(supervisor.moves(), 22);
+}
 
 }  // namespace
 }  // namespace crane::experiments
