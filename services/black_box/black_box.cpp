@@ -64,7 +64,7 @@ class Writer {
       try {
         const auto file = write_incident(options_.directory, incident, origin_, processes);
         std::cout << "black box: " + file.string() + "\n" << std::flush;
-        keep_newest(options_.directory, options_.files);
+        keep_newest(options_.directory, options_.files, file);
       } catch (const recording::WriteError& error) {
         std::cerr << "black box: " + std::string{error.what()} + "; free space or name another --out\n";
       }

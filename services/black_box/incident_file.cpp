@@ -66,6 +66,13 @@ bool is_abandoned(const std::filesystem::path& file, const std::string& pid) {
   return !recent && ::kill(std::stoi(pid), 0) != 0 && errno == ESRCH;
 }
 
+/// Files of the same time are compared by name.
+struct AgedFile {
+  std::filesystem::file_time_type written;
+  std::filesystem::path path;
+  auto operator<=>(const AgedFile&) const = default;
+};
+
 }  // namespace
 
 std::string file_name_of(const Incident& incident) {
@@ -77,6 +84,8 @@ std::string file_name_of(const Incident& incident) {
 
 std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
                                      const Origin& origin, const recording::Metadata& processes) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);  // a failure lets the writer fail, with the reason
   const auto named = directory / file_name_of(incident);
   const std::filesystem::path unfinished = named.string() + "." + std::to_string(::getpid()) + ".part";
   recording::McapWriter writer{unfinished, {.sync = true}};
@@ -95,21 +104,28 @@ std::filesystem::path write_incident(const std::filesystem::path& directory, con
   return published(unfinished, named);
 }
 
-void keep_newest(const std::filesystem::path& directory, std::size_t files) noexcept {
+void keep_newest(const std::filesystem::path& directory, std::size_t files,
+                 const std::filesystem::path& written) noexcept {
   static const std::regex kOurs{R"(\d{8}T\d{6}Z_\w+\.mcap)"},
       kUnfinished{R"(\d{8}T\d{6}Z_\w+\.(\d{1,9})\.part)"};
   std::error_code error;
-  std::vector<std::filesystem::path> ours;
+  std::vector<AgedFile> others;
   for (const auto& entry : std::filesystem::directory_iterator{directory, error}) {
     const std::string name = entry.path().filename().string();
     std::smatch unfinished;
-    if (std::regex_match(name, kOurs)) ours.push_back(entry.path());
+    if (std::regex_match(name, kOurs) && name != written.filename())
+      others.push_back({std::filesystem::last_write_time(entry.path(), error), entry.path()});
     if (std::regex_match(name, unfinished, kUnfinished) && is_abandoned(entry.path(), unfinished[1]))
       std::filesystem::remove(entry.path(), error);
   }
-  if (ours.size() <= files) return;
-  std::ranges::sort(ours);
-  for (const auto& file : std::span{ours}.first(ours.size() - files)) std::filesystem::remove(file, error);
+  std::ranges::sort(others);
+  if (others.empty()) return;
+  const auto after_latest = others.back().written + std::chrono::microseconds{1};
+  if (std::filesystem::last_write_time(written, error) < after_latest)
+    std::filesystem::last_write_time(written, after_latest, error);
+  const std::size_t kept = std::min(others.size(), files - std::min<std::size_t>(files, 1));
+  for (const auto& file : std::span{others}.first(others.size() - kept))
+    std::filesystem::remove(file.path, error);
 }
 
 }  // namespace crane::black_box

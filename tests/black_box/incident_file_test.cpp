@@ -60,7 +60,7 @@ TEST(IncidentFile, OfAnotherProcessThatIsStillWritingIsKept) {
     recording::put_contents(directory / unfinished(pid), "");
     std::filesystem::last_write_time(directory / unfinished(pid),
                                      std::filesystem::file_time_type::clock::now() - age);
-    keep_newest(directory / "", 2);
+    keep_newest(directory / "", 2, directory / "");
     return std::filesystem::exists(directory / unfinished(pid));
   };
   EXPECT_TRUE(is_kept(getpid(), std::chrono::minutes{60}));
@@ -68,17 +68,51 @@ TEST(IncidentFile, OfAnotherProcessThatIsStillWritingIsKept) {
   EXPECT_FALSE(is_kept(kNoProcess, std::chrono::minutes{60}));
 }
 
+std::vector<std::string> files_in(const std::filesystem::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator{directory})
+    names.push_back(entry.path().filename());
+  return names;
+}
+
 TEST(IncidentFile, KeepsOnlyTheNewestOfItsOwnFiles) {
   const recording::TemporaryDirectory directory;
   for (const auto* name : {"20260101T000000Z_A.mcap", "20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
                            "20250101T000000Z_C.html", "run.mcap"})
     recording::put_contents(directory / name, "");
-  keep_newest(directory / "", 2);
-  std::vector<std::string> left;
-  for (const auto& entry : std::filesystem::directory_iterator{directory / ""})
-    left.push_back(entry.path().filename());
-  EXPECT_THAT(left, testing::UnorderedElementsAre("20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
-                                                  "20250101T000000Z_C.html", "run.mcap"));
+  keep_newest(directory / "", 2, directory / "20260103T000000Z_C.mcap");
+  EXPECT_THAT(files_in(directory / ""),
+              testing::UnorderedElementsAre("20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
+                                            "20250101T000000Z_C.html", "run.mcap"));
+}
+
+/// The clock is set back by a year after B. Names and modification times of the later files lie before those
+/// of the earlier ones.
+TEST(IncidentFile, KeepsTheFilesThatWereWrittenLastAfterTheClockWasSetBack) {
+  const recording::TemporaryDirectory directory;
+  const auto now = std::filesystem::file_time_type::clock::now();
+  const auto write = [&](const char* name, std::chrono::hours after) {
+    recording::put_contents(directory / name, "");
+    std::filesystem::last_write_time(directory / name, now + after);
+    keep_newest(directory / "", 2, directory / name);
+  };
+  write("20260101T000000Z_A.mcap", std::chrono::hours{-2});
+  write("20260101T010000Z_B.mcap", std::chrono::hours{-1});
+  write("20250101T020000Z_C.mcap", std::chrono::hours{-8760});
+  EXPECT_THAT(files_in(directory / ""),
+              testing::UnorderedElementsAre("20260101T010000Z_B.mcap", "20250101T020000Z_C.mcap"));
+  write("20250101T030000Z_D.mcap", std::chrono::hours{-8759});
+  EXPECT_THAT(files_in(directory / ""),
+              testing::UnorderedElementsAre("20250101T020000Z_C.mcap", "20250101T030000Z_D.mcap"));
+  write("20250101T010000Z_E.mcap", std::chrono::hours{-8761});
+  EXPECT_THAT(files_in(directory / ""),
+              testing::UnorderedElementsAre("20250101T030000Z_D.mcap", "20250101T010000Z_E.mcap"));
+}
+
+TEST(IncidentFile, IsWrittenAlsoIfItsDirectoryHasBeenDeleted) {
+  const recording::TemporaryDirectory directory;
+  const auto file = write_incident(directory / "deleted/black_box", an_incident(), {}, {});
+  EXPECT_EQ(recording::check(file).messages, 1U);
 }
 
 }  // namespace
