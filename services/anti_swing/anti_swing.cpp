@@ -9,6 +9,17 @@ namespace {
 using runtime::Context;
 constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick, share of the period
 
+/// Swing feedback acts only on axes whose position is known. Such an axis moves during homing only, at the
+/// low speed of the reference. Swing feedback would move it faster, and the mark would be found at a wrong
+/// position.
+void remove_unknown_axes(const msg::State& state, control::Contribution& contribution) {
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    if (state.position_known[i]) continue;
+    contribution.drive_v[i] = 0;
+    contribution.correction[i] = {};
+  }
+}
+
 class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
   explicit AntiSwing(const Context& context)
@@ -21,7 +32,8 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
     const auto measured = runtime::measurement(*state);
     if (!started_) law_->reset(measured);
     started_ = true;
-    const auto contribution = law_->step(measured, runtime::reference(*reference));
+    auto contribution = law_->step(measured, runtime::reference(*reference));
+    remove_unknown_axes(*state, contribution);
     msg::Contribution sample{};
     sample.header = runtime::answer_to(state->header);
     runtime::assign(sample.drive_v, contribution.drive_v);

@@ -12,7 +12,7 @@ void announce(runtime::Node& node, const Limits& limits, const TickOutput& outpu
       (output.cause == Cause::none ? "" : std::string{" because of "} + name_of(output.cause));
   const bool intended = output.cause == Cause::operator_stop || output.cause == Cause::operator_disarm ||
                         output.cause == Cause::idle || output.cause == Cause::homed;
-  if (output.cause == Cause::homing_failed)
+  if (output.cause == Cause::homing_failed && output.state == State::stop_c0)  // not again in LOCKED
     node.error("homing_failed",
                std::string{"homing the "} + plant::kCoordinates[homing_axis].name +
                    " axis: " + name_of(output.homing_failure),

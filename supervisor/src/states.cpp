@@ -24,7 +24,9 @@ constexpr std::array<FailureEntry, kHomingFailures> kFailures{{
     {"MARK_STUCK", "the switch of the mark does not open when the axis backs off: check switch and wiring"},
     {"OTHER_SWITCH", "the axis reached a limit switch that is not its mark: check mark, signs and wiring"},
     {"NO_MOTION", "the axis does not follow its reference: check encoder, brake and drive"},
-    {"MARK_DISAGREES", "the two detections of the mark differ: check coupling, encoder and switch"},
+    {"MARK_DISAGREES",
+     "the second pass did not confirm the mark: the axis was faster than twice approach_speed (swinging "
+     "load, gains, friction compensation), or the positions differ (coupling, encoder, switch)"},
 }};
 
 }  // namespace

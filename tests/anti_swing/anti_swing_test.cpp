@@ -37,6 +37,22 @@ TEST_P(AntiSwingComponent, PublishesTheOutputOfItsLawInEveryTick) {
   }
 }
 
+/// During homing, swing feedback would move the axis faster than its reference.
+TEST_P(AntiSwingComponent, HasNoEffectOnAnAxisWhosePositionIsUnknown) {
+  for (std::uint64_t k = 1; k <= 40; ++k) {
+    auto state = state_at(k, 0.01 * static_cast<double>(k % 7));
+    state.position_known[control::kTrolley] = false;
+    bench_.publish(topics::state, crane_SOURCE_PLANT, state);
+    bench_.publish(topics::reference, crane_SOURCE_PLANNER, reference_at(k));
+    bench_.step();
+    const auto sample = output_.take();
+    ASSERT_TRUE(sample) << "tick " << k;
+    EXPECT_EQ(sample->drive_v[control::kTrolley], 0) << "tick " << k;
+    EXPECT_EQ(sample->correction[control::kTrolley].position, 0) << "tick " << k;
+    EXPECT_EQ(sample->correction[control::kTrolley].speed, 0) << "tick " << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, AntiSwingComponent,
                          testing::Values("gain_scheduling_full", "anti_swing_pd", "delayed_1", "delayed_2",
                                          "fuzzy_printed"),

@@ -93,6 +93,18 @@ INSTANTIATE_TEST_SUITE_P(Each, HomingFault,
                            return std::string{std::get<0>(test.param)} + "_" + std::get<1>(test.param).name;
                          });
 
+TEST(HomingFailureEvent, AppearsOnce) {
+  LockstepCrane crane{"simulated"};
+  crane.spoil = [](bridge::Inputs& in, const auto&) { in.limit_low[0] = in.limit_high[0] = true; };
+  crane.run(1.1);
+  ASSERT_EQ(crane.ask(crane_REQUEST_RESET), "");
+  ASSERT_EQ(crane.home(0), "");
+  crane.run(2);
+  ASSERT_EQ(crane.status().state, crane_STATE_LOCKED);
+  ASSERT_EQ(crane.cause(), Cause::homing_failed) << supervisor::name_of(crane.cause());
+  EXPECT_EQ(crane.events("homing_failed"), 1);
+}
+
 class HomingInterrupted : public testing::TestWithParam<crane_RequestKind> {};
 
 TEST_P(HomingInterrupted, LeavesThePositionUnknownAndCanBeRepeated) {

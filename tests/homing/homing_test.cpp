@@ -65,6 +65,20 @@ TEST_P(HomingOn, FindsEveryZeroAndPermitsMovesOnlyAfterwards) {
   EXPECT_NEAR(crane.truth(2), 0.8, 0.01);
 }
 
+/// The swing feedback must not make the approach faster than the speed that the bridge accepts.
+TEST_P(HomingOn, SucceedsWithTheFeedbackOfEveryController) {
+  for (const auto& controller : control::controllers()) {
+    auto rig = homing_rig();
+    rig.controller = controller.name;
+    LockstepCrane crane{GetParam(), rig, rig};
+    for (const std::size_t axis : {2U, 0U, 1U}) {
+      crane.home_completely(axis);
+      if (HasFatalFailure()) FAIL() << controller.name;
+      EXPECT_NEAR(crane.shown(axis), crane.truth(axis), 5e-4) << controller.name << ", axis " << axis;
+    }
+  }
+}
+
 TEST_P(HomingOn, BeginsAlsoAtTheMark) {
   auto rig = homing_rig();
   rig.start.position = {0.055, 0.09, 0.45};  // starts near the switch, or below the mark

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -83,6 +84,7 @@ class LockstepCrane {
     const auto input = runtime::loop_endpoint(runtime::Clock::lockstep);
     states_.emplace(bus_->subscriber(topics::state, input));
     statuses_.emplace(bus_->subscriber(topics::supervisor, input));
+    event_samples_.emplace(bus_->subscriber(topics::event));
     run(1.3);
   }
 
@@ -148,6 +150,11 @@ class LockstepCrane {
   [[nodiscard]] supervisor::Cause cause() const { return static_cast<supervisor::Cause>(status_.cause); }
   [[nodiscard]] const msg::State& state() const { return state_; }
   [[nodiscard]] const msg::SupervisorStatus& status() const { return status_; }
+  /// Number of events with this code since the start.
+  [[nodiscard]] int events(const std::string& code) const {
+    const auto found = events_.find(code);
+    return found == events_.end() ? 0 : found->second;
+  }
   [[nodiscard]] double shown(std::size_t axis) const {
     return std::array{state_.trolley_position_m, state_.slew_angle_rad, state_.cable_length_m}[axis];
   }
@@ -175,6 +182,7 @@ class LockstepCrane {
     bool any = false;
     while (const auto state = states_->take()) state_ = *state, any = true;
     while (const auto status = statuses_->take()) status_ = *status, any = true;
+    while (const auto event = event_samples_->take()) ++events_[event->code];
     return any;
   }
 
@@ -187,6 +195,8 @@ class LockstepCrane {
   std::optional<stack::OperatorClient> operator_;
   std::optional<bus::Subscriber<msg::State>> states_;
   std::optional<bus::Subscriber<msg::SupervisorStatus>> statuses_;
+  std::optional<bus::Subscriber<msg::Event>> event_samples_;
+  std::map<std::string, int> events_;
   msg::State state_{};
   msg::SupervisorStatus status_{};
   std::uint64_t tick_ = 0;

@@ -73,6 +73,7 @@ class ComponentBench {
 /// A tower crane at rest, the load displaced by `swing_rad` in both directions.
 [[nodiscard]] inline msg::State state_at(std::uint64_t number, double swing_rad = 0) {
   msg::State state{};
+  for (bool& known : state.position_known) known = true;
   state.header = tick(number);
   state.trolley_position_m = 0.5;
   state.slew_angle_rad = 0.2;
