@@ -123,6 +123,11 @@ TEST(RigZones, MustNotContainThePositionAfterHomingAllAxes) {
   EXPECT_THAT(text_problems(text + post_at(slew_rad)),
               testing::ElementsAre(HasSubstr("zone post contains the position after homing all axes")));
   EXPECT_THAT(text_problems(text + post_at(slew_rad - 0.2)), testing::IsEmpty());
+  const std::string back_off = "back_off_rad = 0.03";  // beyond the mark, in positive direction
+  text.replace(text.find(back_off), back_off.size(), "back_off_rad = 0.2");
+  EXPECT_THAT(text_problems(text + post_at(slew_rad + 0.2)),
+              testing::ElementsAre(HasSubstr("zone post contains the position after homing all axes")))
+      << "the axes rest beyond their marks";
 }
 
 TEST(RigZones, NeedASwingingLoad) {

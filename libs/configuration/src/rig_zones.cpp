@@ -65,22 +65,26 @@ bool contains(const Rig& rig, const Zone& zone, const plant::PerAxis& position) 
   return control::clearance_m(zone, reach, rig.clearance.suspension_height_m) <= 0;
 }
 
-/// Reports the positions at which homing leaves the crane: the homing position of each axis, with the other
-/// axes at [start], and of all axes together.
+/// Reports the positions of homing: the mark of each axis, with the other axes at [start], and the position
+/// at which `crane home` leaves the crane, where every axis is `back_off` beyond its mark. Also reports a
+/// zone that contains all marks, because each axis passes its mark.
 void check_homing_positions(TomlTable& table, const Rig& rig, const Zone& zone) {
-  plant::PerAxis all = rig.start.position;
+  plant::PerAxis marks = rig.start.position, rest = rig.start.position;
   bool found = false;
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
     if (!rig.drives[i].homes()) continue;
+    const auto& homing = rig.drives[i].homing;
     plant::PerAxis home = rig.start.position;
-    home[i] = all[i] = rig.drives[i].homing.position;
+    home[i] = marks[i] = homing.position;
+    rest[i] = homing.position - homing.direction() * homing.back_off;
     if (!contains(rig, zone, home)) continue;
     found = true;
     table.problem("position_x_m", "zone " + zone.name + " contains the homing position of the " +
                                       std::string{plant::kCoordinates[i].name} +
                                       ", with the radius of the load");
   }
-  if (!found && all != rig.start.position && contains(rig, zone, all))
+  if (found || marks == rig.start.position) return;
+  if (contains(rig, zone, marks) || contains(rig, zone, rest))
     table.problem("position_x_m", "zone " + zone.name +
                                       " contains the position after homing all axes, with the radius of the "
                                       "load");

@@ -11,8 +11,7 @@ namespace crane::configuration {
 namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kInexact =
-    "must be a decimal number: 64-bit floating point cannot represent this integer";
+constexpr const char* kInexact = "must be a decimal number: integers beyond 2^53 are not exact";
 constexpr int kNoInteger = std::numeric_limits<int>::min();
 
 /// Moves nodes instead of copying them, because only a move preserves file and line of a node.
