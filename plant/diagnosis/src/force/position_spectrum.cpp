@@ -55,8 +55,7 @@ std::vector<MatrixXd> responses_of_known_forces(const Pieces& drive) {
   return responses;
 }
 
-/// Waves of equally spaced lines, each fitted together with the known forces: power is the decrease of the
-/// loss beyond that by the known forces alone.
+/// Equally spaced lines of the spectrum.
 struct Lines {
   double first = 0, spacing = 0;  ///< 1 / length
   std::size_t count = 0;
@@ -80,6 +79,8 @@ MatrixXd waves_along(const Pieces& drive, const Piece& piece, WaveOf of, const L
   return waves;
 }
 
+/// The wave of each line, fitted together with the known forces: power is the decrease of the loss beyond that
+/// by the known forces alone.
 std::vector<Wave> waves_of(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of,
                            const Lines& lines) {
   const Index of_known = known[0].cols(), of_waves = kOfWave * static_cast<Index>(lines.count);
@@ -107,7 +108,7 @@ std::vector<Wave> waves_of(const Pieces& drive, const std::vector<MatrixXd>& kno
   return waves;
 }
 
-/// The same on all processors.
+/// waves_of() on all processors.
 std::vector<Wave> waves_in_groups(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of,
                                   const Lines& lines) {
   std::vector<std::vector<Wave>> groups((lines.count + kGroup - 1) / kGroup);

@@ -27,7 +27,7 @@ constexpr std::size_t kStartShapes = 3;
 constexpr std::array kStartShares{1.0, 0.4};
 
 double chi_square_p(double statistic, Index freedom) {
-  return statistic <= 0 ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
+  return !(statistic > 0) ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
 }
 
 /// Directions of one candidate in one shape by block, with the directions of the known effects projected out.
@@ -44,11 +44,12 @@ struct Directions {
   }
 };
 
-/// Statistic by column. @param sums  of standardised directions, over the blocks
+/// Statistic by column; 0 for directions that are not finite. @param sums  of standardised directions, over
+/// the blocks
 Eigen::RowVectorXd statistics(const MatrixXd& sums, bool one_sided) {
   Eigen::RowVectorXd all = sums.colwise().squaredNorm();
   if (one_sided) all = (sums.row(0).array() > 0).select(all, 0.0);
-  return all;
+  return (all.array() > 0).select(all, 0.0);
 }
 
 /// The last `fresh` directions of `both`, with all earlier directions projected out.
