@@ -79,8 +79,8 @@ MatrixXd waves_along(const Pieces& drive, const Piece& piece, WaveOf of, const L
   return waves;
 }
 
-/// The wave of each line, fitted together with the known forces: power is the decrease of the loss beyond that
-/// by the known forces alone.
+/// The wave of each line, fitted together with the known forces: power is the decrease of the loss beyond
+/// that by the known forces alone.
 std::vector<Wave> waves_of(const Pieces& drive, const std::vector<MatrixXd>& known, WaveOf of,
                            const Lines& lines) {
   const Index of_known = known[0].cols(), of_waves = kOfWave * static_cast<Index>(lines.count);
