@@ -33,6 +33,18 @@ strange::Gantry crane_with_drag() {
   return crane;
 }
 
+/// Study of the crane with a drag, with the noise of the base model.
+struct StudyOfADrag {
+  StudyOfADrag() { study.learn_disturbance(); }
+  [[nodiscard]] const Candidate* of_cause(const char* cause) const {
+    return &*std::ranges::find(study.candidates(), std::string{cause}, &Candidate::cause);
+  }
+
+  configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
+  Runs train = two_runs(crane_with_drag(), rig), none;
+  Study study{rig, train, none, {}, kUsualAccuracy};
+};
+
 /// Largest difference between the roots of the statistics of two score tests, among the significant
 /// candidates. Noise gives the root of a chi-square statistic a standard deviation of 1.
 double largest_difference(const ScoreTable& a, const ScoreTable& b) {
@@ -47,13 +59,10 @@ double largest_difference(const ScoreTable& a, const ScoreTable& b) {
 /// model describes their errors as a disturbance. One round of fit and noise does not remove both.
 TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
   constexpr double kLimit = 2;
-  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
-  const Runs train = two_runs(crane_with_drag(), rig), none;
-  Study study(rig, train, none, {}, kUsualAccuracy);
-  study.learn_disturbance();
-  const auto drag = std::ranges::find(study.candidates(), std::string{"viscous_friction"}, &Candidate::cause);
-  ASSERT_NE(drag, study.candidates().end());
-  const Fitted once = study.refit_with_own_noise(study.first_fit({{&*drag, {0.02}}}, study.base_model()));
+  StudyOfADrag at;
+  Study& study = at.study;
+  const Candidate* drag = at.of_cause("viscous_friction");
+  const Fitted once = study.refit_with_own_noise(study.first_fit({{drag, {0.02}}}, study.base_model()));
   Fitted again = once;
   again.first_nuisance = once.nuisance;
   again = study.refit_with_own_noise(again);
@@ -64,16 +73,11 @@ TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
 /// from there changes the values by a small part of their uncertainty.
 TEST(Refit, WithSlopesOfEarlierValuesEndsAtTheMinimum) {
   constexpr double kSmall = 0.1;
-  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
-  const Runs train = two_runs(crane_with_drag(), rig), none;
-  Study study(rig, train, none, {}, kUsualAccuracy);
-  study.learn_disturbance();
-  const auto of_cause = [&](const char* cause) {
-    return &*std::ranges::find(study.candidates(), std::string{cause}, &Candidate::cause);
-  };
+  StudyOfADrag at;
+  Study& study = at.study;
   for (const Effects& effects :
-       {Effects{{of_cause("viscous_friction"), {0.02}}}, Effects{{of_cause("motor_gain"), {1.0}}},
-        Effects{{of_cause("command_delay"), {0.01}}, {of_cause("cable_length"), {0.0}}}}) {
+       {Effects{{at.of_cause("viscous_friction"), {0.02}}}, Effects{{at.of_cause("motor_gain"), {1.0}}},
+        Effects{{at.of_cause("command_delay"), {0.01}}, {at.of_cause("cable_length"), {0.0}}}}) {
     const Fitted once = study.refit_with_own_noise(study.first_fit(effects, study.base_model()));
     const Fitted again = study.fit(once.effects, std::numeric_limits<double>::infinity(), once.train);
     std::size_t value = 0;
@@ -88,18 +92,14 @@ TEST(Refit, WithSlopesOfEarlierValuesEndsAtTheMinimum) {
 /// base model. With slopes of their own, their statistics differ by less than noise changes them.
 TEST(ProbeSlopes, OfOneScoreTestServeLaterOnes) {
   constexpr double kSmall = 0.5;
-  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
-  const Runs train = two_runs(crane_with_drag(), rig), none;
-  Study study(rig, train, none, {}, kUsualAccuracy);
-  study.learn_disturbance();
+  StudyOfADrag at;
+  Study& study = at.study;
   ProbeSlopes known;
   const ScoreTable first = study.score({}, study.base_train(), 1, known);
   EXPECT_EQ(largest_difference(first, study.score({}, study.base_train(), 1, known)), 0);
 
-  const auto drag = std::ranges::find(study.candidates(), std::string{"viscous_friction"}, &Candidate::cause);
-  ASSERT_NE(drag, study.candidates().end());
-  const Fitted with_drag =
-      study.refit_with_own_noise(study.first_fit({{&*drag, {0.02}}}, study.base_model()));
+  const Candidate* drag = at.of_cause("viscous_friction");
+  const Fitted with_drag = study.refit_with_own_noise(study.first_fit({{drag, {0.02}}}, study.base_model()));
   ProbeSlopes own;
   EXPECT_LT(largest_difference(study.score(with_drag.effects, with_drag.train, 1, known),
                                study.score(with_drag.effects, with_drag.train, 1, own)),

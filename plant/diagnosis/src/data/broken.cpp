@@ -126,6 +126,7 @@ void add_finding(const std::string& column, const char* what, const std::vector<
 }  // namespace
 
 double largest_credible_change(const configuration::Rig& rig, Output output, double time_s) {
+  // kHand_mps: no hand moves a support faster.
   constexpr double kDriveSpeedRatio = 5, kSlowestDrive = 0.1, kSwingSpeedRatio = 3, kHand_mps = 5;
   const bool drive = output == kTrolleyPosition || output == kSlewAngle;
   if (drive && !rig.drives[output].present) return kHand_mps * time_s;

@@ -50,7 +50,7 @@ class Checks {
     bool any = false;
     for (std::size_t i = 0; i < kOutputs; ++i) {
       columns_.outputs[i] = {kOutputNames[i], table_.find(kOutputNames[i])};
-      if (!expected[i]) leave_out(columns_.outputs[i]);
+      if (!expected[i]) leave_out(static_cast<Output>(i));
       any = any || columns_.outputs[i].values != nullptr;
     }
     if (!any)
@@ -66,11 +66,16 @@ class Checks {
       columns_.load_mass_kg = mass->front();
   }
 
-  /// A column that the rig file does not describe. @post its values are not used
-  void leave_out(Source& source) {
+  /// Does not use a column that the rig file does not describe. A motion of the support would excite the
+  /// swing and is therefore refused.
+  void leave_out(Output output) {
+    Source& source = columns_.outputs[output];
     const auto* values = std::exchange(source.values, nullptr);
     if (values == nullptr || !(range_of(*values) > 0)) return;
-    findings_.problem(source.name, "moves", "the rig file has no such axis or sensor; leave the column out");
+    if (output == kRadialSwing || output == kTangentialSwing)
+      findings_.note(source.name + " is not compared: the rig file has no such sensor");
+    else
+      findings_.problem(source.name, "moves", "the rig file has no such axis");
   }
 
   /// All measured drives that move must have a command, or none. Without commands, the motion of the drives
