@@ -29,16 +29,17 @@ class StickKeys {
   explicit StickKeys(bool micro = false, bool inching = false) : micro_{micro}, inching_{inching} {}
 
   /// Takes all bytes that wait in the terminal; call in every pass, also without bytes. The keys act from the
-  /// time of the previous pass on: a key that is found after kFirst_s does not move the crane. Arrow keys,
-  /// page keys and r have no effect in the first pass, in a pass that is longer than kFirst_s or finds more
-  /// than kMostNewBytes, for kRepeat_s after such a pass, and in a pass with space or q.
+  /// time of the previous pass on: a key that is found after kFirst_s does not move the crane. Keys are
+  /// a backlog in the first pass, more than kFirst_s after the previous pass, and in a pass of more than
+  /// kMostNewBytes. Arrow keys, page keys and r have no effect in a backlog, for kRepeat_s after a backlog
+  /// with keys, and in a pass with space or q.
   void take_pass(std::string_view bytes, double now_s);
   /// Takes bytes that arrived at `now_s`; a sequence may be split between calls.
   void take(std::string_view bytes, double now_s);
   /// Deflection of trolley, slew and hoist; 0 while inching is on.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
-  /// Time of the last key that deflected the stick; negative: the stick is released (no such key yet, or
-  /// released by the space bar, i or r).
+  /// Time from which the last accepted arrow or page key acts (the time of the previous pass); negative: no
+  /// such key yet, or the space bar, i or r released the stick.
   [[nodiscard]] double last_s() const { return last_s_; }
   [[nodiscard]] bool quits() const { return quits_; }
   [[nodiscard]] bool micro() const { return micro_; }

@@ -24,8 +24,8 @@ double gap_of(const Limits& limits, std::size_t zone, const ReachedSpace& reach)
 /// True while a load inside the margin of the zone leaves it.
 bool leaves(const ZoneMemory& memory, std::size_t zone) noexcept { return memory.permitted_m[zone] < 0; }
 
-/// Signed distance that a controlled stop needs in the direction of motion beyond the distance of a ramped
-/// stop, unit.
+/// Additional travel of a controlled stop beyond that of a ramped stop, m or rad; the sign is that of the
+/// speed.
 double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
                            double omega_radps) noexcept {
   // from the decision until the controllers follow the planner's new reference

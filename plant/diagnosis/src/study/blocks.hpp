@@ -48,8 +48,9 @@ void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Eigen:
 /// Blocks of `a`, then those of `b`.
 [[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);
 
-/// Increase of the loss of each block when the fit omits the block, to second order (infinitesimal
-/// jackknife). The sum is the penalty of K. Takeuchi, Suri-Kagaku 153 (1976) 12, with leverage.
+/// Increase of the loss of each block b when the fit omits the block, to first order in the change of the
+/// parameters: 2 g_b' (H - H_b)^-1 g_b. With H it would be the infinitesimal jackknife. The sum is the
+/// penalty of K. Takeuchi, Suri-Kagaku 153 (1976) 12, with leverage.
 [[nodiscard]] Blocks left_out(const BlockScores& at);
 /// Sum of ln f of the innovations, by block.
 [[nodiscard]] Blocks log_variances_of(const Problem& problem);

@@ -14,8 +14,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostRounds = 12;  // of Gauss-Newton
-/// Largest number of attempts of a round, each with more damping than the last. kFewAttempts applies to the
-/// values of one effect alone, and while the loss exceeds `loss_to_beat`.
+/// Largest number of attempts for one group of values in a round, each with more damping than the attempt
+/// before. kFewAttempts applies to the values of one effect alone, and while the loss exceeds `loss_to_beat`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
 /// A round that decreases the Cauchy loss by less is the last one.
@@ -174,7 +174,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
       }
       if (gained < enough) damping = kFirstDamping;
     }
-    if (gained < enough) break;  // a step this small does not change the slopes
+    if (gained < enough) break;  // converged
     if (!as_predicted) along = {}, here.reset();
   }
   return true;

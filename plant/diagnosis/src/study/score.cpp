@@ -78,7 +78,7 @@ void judge(const Directions& d, Score& score) {
 const VectorXd& residual_of(const WindowFit& fit) { return fit.residual; }
 const VectorXd& residual_of(const VectorXd& residual) { return residual; }
 
-/// Decrease of the loss when the residuals change by all of `change`.
+/// Decrease of the loss when `change` is subtracted from the residuals.
 template <class Parts>
 double gain_of(const Parts& parts, const std::vector<VectorXd>& change) {
   double gain = 0;
@@ -87,14 +87,15 @@ double gain_of(const Parts& parts, const std::vector<VectorXd>& change) {
   return gain;
 }
 
-/// Share of random sign flips of the blocks in which some p value is at most `least`.
-double p_value_of_largest(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
+/// p value of the smallest p value `least`: share of random sign flips of the blocks, counting the data as
+/// one of them, in which the smallest p value is at most `least`.
+double p_value_of_smallest(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const Index blocks = directions.empty() ? 0 : directions[0].by_block.rows();
   MatrixXd signs(blocks, kSignFlips);
   for (Index f = 0; f < signs.cols(); ++f)
     for (Index b = 0; b < blocks; ++b) signs(b, f) = (random() & 1U) != 0U ? 1.0 : -1.0;
-  // The p value decreases with the statistic: the largest one of each number of directions is enough.
+  // For each number of directions, the largest statistic has the smallest p value.
   std::map<Index, Eigen::RowVectorXd> largest;
   for (const Directions& d : directions) {
     const Eigen::RowVectorXd of_flips = statistics(d.standardised() * signs, d.one_sided);
@@ -110,8 +111,7 @@ double p_value_of_largest(const std::vector<Directions>& directions, double leas
   return static_cast<double>(as_small) / (kSignFlips + 1);
 }
 
-/// The shapes with the largest predicted gain: only settings that are simulated as they are, or only the
-/// others.
+/// The shapes with the largest predicted gain, either only those with a large probe or only those without.
 std::vector<const Score*> most_promising(std::span<const Score> shapes, bool large_probe, std::size_t count) {
   std::vector<const Score*> order;
   for (const Score& score : shapes)
@@ -161,7 +161,7 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
   const Pieces pieces = pieces_of(train_.runs, replays, axis);
   const WaveOf of = candidate.waves ? WaveOf::force : WaveOf::friction;
   const FreeParameter& length = candidate.parameters[candidate.waves ? 2 : 1];
-  // An axis at rest has waves of any period within a very short travel; the bounds of the term exclude them.
+  // On an axis at rest, the search finds waves of very short period; the bounds of the term exclude them.
   for (const PositionWave& wave : strongest_waves(pieces, kWaves, of)) {
     if (wave.period < length.low || wave.period > length.high) continue;
     if (candidate.waves)
@@ -302,7 +302,7 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
   if (effects.empty()) table.excitation = excitation(scores, kept, at);
   double least = 1;
   for (const Score& score : scores) least = std::min(least, score.p_value);
-  table.p_value = p_value_of_largest(directions, least, seed);
+  table.p_value = p_value_of_smallest(directions, least, seed);
   for (auto first = scores.begin(); first != scores.end();) {
     const auto end = std::find_if(first, scores.end(),
                                   [&](const Score& score) { return score.candidate != first->candidate; });

@@ -97,7 +97,7 @@ struct ScoreTable {
   /// Best shape of every candidate, in the order of the candidates.
   std::vector<Score> best;
   std::vector<Visibility> excitation;  ///< of each effect in these data; only for the base model
-  double p_value = 1;                  ///< of the largest statistic, by flipping the signs of blocks
+  double p_value = 1;                  ///< of the most significant candidate, by flipping signs of blocks
 };
 
 struct BlockScores;

@@ -77,7 +77,7 @@ struct ZoneMemory {
 };
 
 struct ZoneVerdict {
-  bool ahead = false;      ///< true: without a controlled stop now, a ramped stop will be necessary
+  bool ahead = false;      ///< true: without a controlled stop now, a ramped stop may become necessary
   bool touched = false;    ///< true: the reached space touches a zone: 0 V, ramped stop
   std::size_t zone = 0;    ///< index of the zone that requires the stop; without a stop, of the zone whose
                            ///< clearance exceeds its permitted clearance least
@@ -85,10 +85,10 @@ struct ZoneVerdict {
 };
 
 /// A crane whose resting load has a clearance below 0 (a changed rig file, an axis moved by hand) may be
-/// armed and leave the zone. Its clearance from this zone must not fall by more than kLeaveTolerance_m below
-/// the largest clearance since it fell below 0, even if the crane is armed several times. Every other zone
-/// stops the crane as usual. With this tolerance the crane can leave with the acceleration
-/// 2 g kLeaveTolerance_m / L: 0.4 m/s2 for a cable of 1 m.
+/// armed and leave the zone. The clearance of the reached space must not fall by more than kLeaveTolerance_m
+/// below its largest value since the brakes first opened in the margin; arming again keeps it. Every other
+/// zone stops the crane as usual. With this tolerance the crane can leave with the acceleration 2 g
+/// kLeaveTolerance_m / L: 0.4 m/s2 for a cable of 1 m.
 inline constexpr double kLeaveTolerance_m = 0.02;
 
 /// Stores one sample. Call for every sample, also while the brakes are closed.

@@ -40,7 +40,7 @@ struct Clearance {
   bool operator==(const Clearance&) const = default;
 };
 
-/// A zone cannot be farther from the tower than the largest position of an axis.
+/// Permitted edge lengths and radii of zones, m: at most the largest position of an axis.
 inline constexpr fields::Range kZoneSizes = fields::Range::closed(0, plant::kPositions.high);
 
 inline constexpr std::array kZoneFields{
