@@ -40,6 +40,8 @@ std::vector<Action> actions_of(const experiment::Scenario& scenario) {
 /// Longest wait for the arrival at the start, and longest wait for the load to come to rest there. It must be
 /// shorter than idle_lock_s (60 s), after which the supervisor locks an idle crane.
 constexpr auto kPatience = 30s;
+/// Longest delay of a state. Without states, the supervisor stops the crane earlier.
+constexpr auto kLate = 2s;
 
 void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {
   stack::OperatorRequest wanted;
@@ -50,11 +52,6 @@ void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& 
     wanted.target[i] = *scenario.start[i];
   }
   if (any) session.move_to(wanted.selected, wanted.target, kPatience);
-}
-
-void wait_until(RealtimeSession& session, std::int64_t time_ns) {
-  const auto left_ns = time_ns - session.state()->header.sample_time_ns;
-  if (left_ns > 0) session.wait(nanoseconds{left_ns});
 }
 
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
@@ -103,10 +100,10 @@ recording::Table RealtimeRuns::run_from_start(const std::filesystem::path& rig_f
   session.start_table();
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (const Action& action : actions_of(scenario)) {
-    wait_until(session, zero_ns + ns(action.at_s));
+    session.wait_for_sample(zero_ns + ns(action.at_s), kLate);
     session.request(action.wanted, action.wanted.kind == crane_REQUEST_MOVE ? "move" : "follow");
   }
-  wait_until(session, zero_ns + ns(scenario.end_s()));
+  session.wait_for_sample(zero_ns + ns(scenario.end_s()), kLate);
   const auto table = session.table().table(zero_ns);
   const bool at_rest = !real || !rig.has_load() || session.wait_for_rest(kPatience);
   session.disarm();

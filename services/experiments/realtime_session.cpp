@@ -93,7 +93,11 @@ bool RealtimeSession::until(Condition condition, std::chrono::nanoseconds patien
   const auto deadline_ns = runtime::monotonic_ns() + patience.count();
   while (!condition()) {
     const auto left_ns = deadline_ns - runtime::monotonic_ns();
-    if (left_ns <= 0) return false;
+    if (left_ns <= 0) {
+      // Samples that arrived while this program was suspended are still to be taken.
+      take(std::chrono::nanoseconds{0});
+      return condition();
+    }
     take(std::chrono::nanoseconds{std::min<std::int64_t>(left_ns, 20'000'000)});
   }
   return true;
@@ -165,6 +169,15 @@ void RealtimeSession::move_to(const std::array<bool, 3>& selected, const std::ar
   wait_for(crane_STATE_RUN, std::chrono::seconds{1});
   wait_for(crane_STATE_HOLD, patience);
   wait_for_rest(patience);
+}
+
+void RealtimeSession::wait_for_sample(std::int64_t sample_time_ns, std::chrono::nanoseconds patience) {
+  const std::chrono::nanoseconds left{sample_time_ns - state_->header.sample_time_ns};
+  const auto measured = [&] { return state_->header.sample_time_ns >= sample_time_ns; };
+  if (!measured() && !until(measured, left + patience))
+    throw SessionError(
+        "states of the plant are missing at the end of the wait: this program was suspended, or the computer "
+        "was too busy; repeat the run");
 }
 
 bool RealtimeSession::wait_for_rest(std::chrono::milliseconds patience) {

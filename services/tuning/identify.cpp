@@ -25,15 +25,6 @@ const std::vector<double>& column(const recording::Table& table, const char* nam
   return *values;
 }
 
-void require_every_tick(const recording::Table& table) {
-  const auto* ticks = table.find("tick");
-  if (ticks == nullptr) return;
-  for (std::size_t k = 1; k < ticks->size(); ++k)
-    if ((*ticks)[k] != (*ticks)[k - 1] + 1)
-      throw IdentificationError("ticks are missing at " + recording::shortest((*ticks)[k]) +
-                                ": the computer was too busy; repeat the tuning");
-}
-
 bool measures(const configuration::Rig& rig, diagnosis::Output output) {
   const bool drive = output == diagnosis::kTrolleyPosition || output == diagnosis::kSlewAngle;
   return rig.measures(diagnosis::kCoordinateOf[output]) && (!drive || rig.drives[output].present);
@@ -190,6 +181,15 @@ IdentifiedDrive drive_of(const FitResult& fit) {
 }
 
 }  // namespace
+
+void require_every_tick(const recording::Table& table) {
+  const auto* ticks = table.find("tick");
+  if (ticks == nullptr) return;
+  for (std::size_t k = 1; k < ticks->size(); ++k)
+    if ((*ticks)[k] != (*ticks)[k - 1] + 1)
+      throw IdentificationError("ticks are missing at " + recording::shortest((*ticks)[k]) +
+                                ": the computer was too busy; repeat the tuning");
+}
 
 PreparedRun prepared(const recording::Table& table, const configuration::Rig& rig) {
   require_every_tick(table);

@@ -12,6 +12,8 @@
 
 namespace crane::tuning {
 
+/// @throws identification::IdentificationError when a tick of the motion is missing
+void require_every_tick(const recording::Table& table);
 /// Converts a motion to the input of the simulations of plant/diagnosis. @throws
 /// identification::IdentificationError when a column or a tick is missing
 [[nodiscard]] diagnosis::PreparedRun prepared(const recording::Table& table, const configuration::Rig& rig);

@@ -132,6 +132,7 @@ class Tuner {
       result_.motion_s += time_s->back();
     append(all_, motion.table);
     recording::write_csv(file(kMotionFile), all_);
+    require_every_tick(motion.table);
     return motion;
   }
 

@@ -132,6 +132,7 @@ class SharedSupervisor {
     if (thread_.joinable()) thread_.join();
   }
   [[nodiscard]] int moves() const { return moves_; }
+  [[nodiscard]] int ticks() const { return ticks_; }
 
  private:
   static constexpr int kMoveTicks = 10;
@@ -147,6 +148,7 @@ class SharedSupervisor {
       msg::State state{};
       state.header = status_.header;
       EXPECT_TRUE(states_.publish(state));
+      ++ticks_;
       bus_.wait(std::chrono::milliseconds{10});
       while (const auto request = requests_.take()) answer(*request);
     }
@@ -189,7 +191,7 @@ class SharedSupervisor {
   }();
   Replaced replaced_;
   int moving_ticks_ = 0;
-  std::atomic<int> moves_ = 0;
+  std::atomic<int> moves_ = 0, ticks_ = 0;
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };
@@ -225,6 +227,36 @@ INSTANTIATE_TEST_SUITE_P(By, SessionWhoseMoveIsReplaced,
                          testing::Values(SharedSupervisor::Replaced::during_the_move,
                                          SharedSupervisor::Replaced::in_the_same_tick,
                                          SharedSupervisor::Replaced::in_hold));
+
+constexpr std::int64_t kLater_ns = 100'000'000;
+constexpr std::chrono::milliseconds kLate{50};
+
+TEST(SessionAlone, EndsWhenTheLastStatesOfAMotionDoNotArrive) {
+  const auto network = bus::make_memory_network();
+  SharedSupervisor supervisor{network, SharedSupervisor::Replaced::never};
+  bus::Bus bus{options_on(network, "session", crane_SOURCE_OPERATOR)};
+  RealtimeSession session{bus, [] {}};
+  session.arm();
+  supervisor.end();
+  EXPECT_THROW(session.wait_for_sample(runtime::monotonic_ns() + kLater_ns, kLate), SessionError);
+}
+
+TEST(SessionAlone, TakesTheStatesThatArrivedWhileItWasSuspended) {
+  const auto network = bus::make_memory_network();
+  SharedSupervisor supervisor{network, SharedSupervisor::Replaced::never};
+  bus::Bus bus{options_on(network, "session", crane_SOURCE_OPERATOR)};
+  bool suspended = false;
+  RealtimeSession session{bus, [&] {
+                            if (!std::exchange(suspended, false)) return;
+                            for (const int begin = supervisor.ticks(); supervisor.ticks() < begin + 50;)
+                              std::this_thread::yield();
+                          }};
+  session.arm();
+  const auto end_ns = runtime::monotonic_ns() + kLater_ns;
+  suspended = true;
+  EXPECT_NO_THROW(session.wait_for_sample(end_ns, kLate));
+  EXPECT_GE(session.state()->header.sample_time_ns, end_ns);
+}
 
 TEST(SessionAlone, ReplacesItsOwnMoves) {
   const auto network = bus::make_memory_network();

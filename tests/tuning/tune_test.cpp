@@ -167,6 +167,28 @@ TEST(TuneFiles, OfAnEarlierTuningStayWhenANewOneFails) {
   EXPECT_TRUE(std::filesystem::exists(directory / "out" / kJsonFile));
 }
 
+/// A crane whose motion lacks the ticks 3 and 4, because the program that records it was suspended.
+class SuspendedCrane final : public CraneAccess {
+ public:
+  [[nodiscard]] Motion execute(const configuration::Rig& /*rig*/,
+                               const experiment::Scenario& /*scenario*/) override {
+    return {{{{"tick", {1, 2, 5}}, {"time_s", {0.01, 0.02, 0.05}}}}, ""};
+  }
+};
+
+TEST(Tune, RefusesAProbeWithMissingTicks) {
+  const recording::TemporaryDirectory directory;
+  SuspendedCrane crane;
+  try {
+    (void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane,
+               options_for(directory / "out"));
+    FAIL() << "accepted";
+  } catch (const TuningRefused& refused) {
+    EXPECT_NE(std::string{refused.what()}.find("ticks are missing at 5"), std::string::npos)
+        << refused.what();
+  }
+}
+
 TEST(TuneFiles, NeverReplaceTheRigFileOrTheHiddenRig) {
   const recording::TemporaryDirectory directory;
   const auto file = directory / kRigFile;
