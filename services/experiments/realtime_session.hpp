@@ -38,7 +38,7 @@ class RealtimeSession {
   void move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                std::chrono::milliseconds patience);
   /// Waits until the plant has measured the state of `sample_time_ns`. @throws SessionError when this state
-  /// has not arrived `patience` after its time
+  /// has not arrived `patience` after its time. A state must have arrived before (arm())
   void wait_for_sample(std::int64_t sample_time_ns, std::chrono::nanoseconds patience);
   /// Waits at most `patience` until the load hangs at rest. @return whether it does
   bool wait_for_rest(std::chrono::milliseconds patience);

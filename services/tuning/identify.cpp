@@ -187,8 +187,9 @@ void require_every_tick(const recording::Table& table) {
   if (ticks == nullptr) return;
   for (std::size_t k = 1; k < ticks->size(); ++k)
     if ((*ticks)[k] != (*ticks)[k - 1] + 1)
-      throw IdentificationError("ticks are missing at " + recording::shortest((*ticks)[k]) +
-                                ": the computer was too busy; repeat the tuning");
+      throw IdentificationError(
+          "ticks are missing at " + recording::shortest((*ticks)[k]) +
+          ": this program was suspended, or the computer was too busy; repeat the tuning");
 }
 
 PreparedRun prepared(const recording::Table& table, const configuration::Rig& rig) {
