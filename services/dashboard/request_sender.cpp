@@ -68,13 +68,11 @@ void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
   if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
-/// If the middleware refuses the request, the next poll tries again until kPatience_ns is over. After every
-/// kRepetitionsPerWriter unanswered stops, a new writer sends the next one (OperatorClient::renew_writer()).
+/// If the middleware refuses the request, the next poll tries again until kPatience_ns is over.
 void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
-  constexpr std::size_t kRepetitionsPerWriter = 4;
   try {
-    if (!pending.ids.empty() && pending.ids.size() % kRepetitionsPerWriter == 0) client_.renew_writer();
-    pending.ids.push_back(client_.send(pending.wanted));
+    pending.ids.push_back(pending.ids.empty() ? client_.send(pending.wanted)
+                                              : client_.repeat(pending.wanted));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {
     pending.repeat_ns = now_ns;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "crane/runtime/node.hpp"
 
@@ -24,7 +25,9 @@ OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t 
       client_{std::move(client)},
       next_id_{first_id} {}
 
-std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
+std::uint64_t OperatorClient::send(const OperatorRequest& wanted) { return send(wanted, requests_); }
+
+std::uint64_t OperatorClient::send(const OperatorRequest& wanted, bus::Publisher<msg::Request>& writer) {
   msg::Request request{};
   request.header = runtime::answer_to(wanted.seen);
   request.id = next_id_++;
@@ -39,12 +42,27 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
   request.duration_s = wanted.duration_s;
   request.mode = wanted.mode;
   last_sent_ = request;
-  if (!requests_.publish(request))
-    throw bus::Error("the request could not be sent: the middleware refused it");
+  if (!writer.publish(request)) throw bus::Error("the request could not be sent: the middleware refused it");
   return request.id;
 }
 
-void OperatorClient::renew_writer() { requests_ = bus_.publisher(topics::request); }
+std::uint64_t OperatorClient::repeat(const OperatorRequest& wanted) {
+  const bool keys = bus_.options().credentials.has_value();
+  if (keys || !std::exchange(spare_is_next_, !spare_is_next_)) return send(wanted);
+  if (!spare_ || spare_->ids.size() == kUnanswered)
+    spare_ = Spare{.requests = bus_.publisher(topics::request)};
+  // A writer that the readers have not discovered yet is not replaced: discovery would begin again.
+  const bool discovered = spare_->requests.matched() >= requests_.matched();
+  const auto id = send(wanted, spare_->requests);
+  if (discovered) spare_->ids.push_back(id);
+  return id;
+}
+
+void OperatorClient::prefer_answered_writer(std::uint64_t id) {
+  if (!spare_ || !std::ranges::count(spare_->ids, id)) return;
+  std::swap(requests_, spare_->requests);
+  spare_->ids.clear();
+}
 
 void OperatorClient::probe() {
   msg::Request request{};
@@ -67,6 +85,7 @@ std::optional<msg::Reply> OperatorClient::take_reply(std::uint64_t id, crane_Sou
   if (found == received_.end()) return std::nullopt;
   const auto reply = *found;
   received_.erase(found);
+  prefer_answered_writer(id);
   return reply;
 }
 

@@ -42,9 +42,13 @@ class OperatorClient {
   [[nodiscard]] int answerers() const { return replies_.matched(); }
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
-  /// Replaces the DDS writer of the requests, because a forged packet can make readers skip all later samples
-  /// of a writer. The readers receive requests again when they have discovered the new writer.
-  void renew_writer();
+  /// Sends an unanswered request again, under a new id. Without keys, a forged packet can make readers skip
+  /// all later samples of a DDS writer. Therefore every other repetition goes through a spare writer, which
+  /// is replaced after kUnanswered unanswered repetitions. An answer to such a repetition makes the spare
+  /// writer the writer of send(). With keys, the packet cannot be forged, and all repetitions use one writer.
+  /// @return id of the repetition
+  std::uint64_t repeat(const OperatorRequest& wanted);
+  static constexpr int kUnanswered = 2;
   /// The newest request of send(), without header and checksum, which the bus adds.
   [[nodiscard]] const msg::Request& last_sent() const { return last_sent_; }
   /// Sends a request that is always refused, because its id is 0 (kProbe). The reply proves that requests
@@ -59,8 +63,18 @@ class OperatorClient {
                                                      bool scheduled = false);
 
  private:
+  /// Writer of every other repetition.
+  struct Spare {
+    bus::Publisher<msg::Request> requests;
+    std::vector<std::uint64_t> ids{};  ///< repetitions sent while all readers of `requests_` received them
+  };
+  std::uint64_t send(const OperatorRequest& wanted, bus::Publisher<msg::Request>& writer);
+  void prefer_answered_writer(std::uint64_t id);
+
   bus::Bus& bus_;
   bus::Publisher<msg::Request> requests_;
+  std::optional<Spare> spare_;
+  bool spare_is_next_ = true;
   bus::Subscriber<msg::Reply> replies_;
   std::string client_;
   std::uint64_t next_id_;
