@@ -45,8 +45,8 @@ TEST_F(DiscoveryAttack, ThatSilencesAnOperatorDoesNotSilenceItsRepetitions) {
   std::vector<std::uint64_t> repetitions;
   const auto answered = [&] {
     client.receive();
-    return std::ranges::any_of(repetitions,
-                               [&](auto id) { return client.take_reply(id, crane_SOURCE_SUPERVISOR); });
+    return std::ranges::any_of(
+        repetitions, [&](auto id) { return client.take_reply(id, crane_SOURCE_SUPERVISOR).has_value(); });
   };
   do repetitions.push_back(client.repeat({.kind = crane_REQUEST_ESTOP}));
   while (!stack_->until(answered, 100ms) && repetitions.size() < 20);
