@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <sstream>
 
 #include "crane/files/temporary_directory.hpp"
 #include "experiments/realtime_session.hpp"
@@ -43,7 +45,8 @@ constexpr auto kPatience = 30s;
 /// Longest delay of a state. Without states, the supervisor stops the crane earlier.
 constexpr auto kLate = 2s;
 
-void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {
+/// @return whether the load is at rest
+bool go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {
   stack::OperatorRequest wanted;
   bool any = false;
   for (std::size_t i = 0; i < wanted.target.size(); ++i) {
@@ -51,15 +54,33 @@ void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& 
     any = wanted.selected[i] = true;
     wanted.target[i] = *scenario.start[i];
   }
-  if (any) session.move_to(wanted.selected, wanted.target, kPatience);
+  return !any || session.move_to(wanted.selected, wanted.target, kPatience);
+}
+
+std::string swinging_start(const msg::State& state) {
+  std::ostringstream text;
+  text << "the load still swings " << kPatience.count() << " s after the move to the start: radial "
+       << state.swing_radial_rad << " rad, tangential " << state.swing_tangential_rad << " rad; trolley at "
+       << state.trolley_position_m << " m, slew at " << state.slew_angle_rad << " rad, cable "
+       << state.cable_length_m << " m";
+  return text.str();
+}
+
+/// @return a sentence when the request of `at_s` was sent at least two periods late
+std::optional<std::string> lateness(double at_s, double sent_s, double period_s) {
+  if (sent_s - at_s < 2 * period_s) return std::nullopt;
+  std::ostringstream text;
+  text << "the request of " << at_s << " s was sent " << sent_s - at_s
+       << " s late: this program was suspended, or the computer was too busy";
+  return text.str();
 }
 
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
 
 }  // namespace
 
-recording::Table RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
-                                   const experiment::Scenario& scenario) {
+RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
+                              const experiment::Scenario& scenario) {
   if (!end_) return run_from_start(rig_file, controller, scenario);
   if (!end_->load_at_rest)
     throw SessionError(
@@ -73,9 +94,8 @@ recording::Table RealtimeRuns::run(const std::filesystem::path& rig_file, const 
   return run_from_start(started, controller, scenario);
 }
 
-recording::Table RealtimeRuns::run_from_start(const std::filesystem::path& rig_file,
-                                              const std::string& controller,
-                                              const experiment::Scenario& scenario) {
+RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, const std::string& controller,
+                                         const experiment::Scenario& scenario) {
   const bool real = options_.plant == stack::Plant::hardware;
   const auto specs = stack::stack_with(options_.plant);
   stack::LaunchOptions launch_options{
@@ -96,15 +116,21 @@ recording::Table RealtimeRuns::run_from_start(const std::filesystem::path& rig_f
                           }};
   session.end_at_stops();
   session.arm();
-  go_to_scenario_start(session, scenario);
+  RealtimeRun run;
+  if (!go_to_scenario_start(session, scenario)) run.differences.push_back(swinging_start(*session.state()));
+  session.wait(0s);  // the newest state, also after a suspension of this program
   session.start_table();
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (const Action& action : actions_of(scenario)) {
     session.wait_for_sample(zero_ns + ns(action.at_s), kLate);
+    const double sent_s = 1e-9 * static_cast<double>(session.state()->header.sample_time_ns - zero_ns);
+    if (auto late = lateness(action.at_s, sent_s, rig.period_s)) run.differences.push_back(*std::move(late));
     session.request(action.wanted, action.wanted.kind == crane_REQUEST_MOVE ? "move" : "follow");
   }
   session.wait_for_sample(zero_ns + ns(scenario.end_s()), kLate);
-  const auto table = session.table().table(zero_ns);
+  run.table = session.table().table(zero_ns);
+  if (const auto missing = recording::missing_ticks(run.table); !missing.empty())
+    run.differences.push_back(missing + ": this program was suspended, or the computer was too busy");
   const bool at_rest = !real || !rig.has_load() || session.wait_for_rest(kPatience);
   session.disarm();
   if (real) {
@@ -112,7 +138,7 @@ recording::Table RealtimeRuns::run_from_start(const std::filesystem::path& rig_f
     end_ = End{{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m}, at_rest};
   }
   children.stop();
-  return table;
+  return run;
 }
 
 }  // namespace crane::experiments

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "crane/experiment/scenario.hpp"
 #include "crane/recording/csv.hpp"
@@ -13,6 +14,14 @@
 #include "stack/stack.hpp"
 
 namespace crane::experiments {
+
+struct RealtimeRun {
+  /// time_s is 0 when the crane is in HOLD at the start of the scenario.
+  recording::Table table;
+  /// Differences between run and scenario, one sentence each: a load that swings at the start, a late
+  /// request, missing ticks.
+  std::vector<std::string> differences;
+};
 
 struct RealtimeRunOptions {
   stack::Plant plant = stack::Plant::simulated;
@@ -29,20 +38,19 @@ class RealtimeRuns {
   explicit RealtimeRuns(RealtimeRunOptions options) : options_{std::move(options)} {}
 
   /// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
-  /// @return the run as a table; time_s is 0 when the crane is in HOLD at the start of the scenario
   /// @throws SessionError when the crane was stopped, or when the load still swings after the run before;
   ///   configuration::ConfigurationError, std::runtime_error
-  [[nodiscard]] recording::Table run(const std::filesystem::path& rig_file, const std::string& controller,
-                                     const experiment::Scenario& scenario);
+  [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
+                                const experiment::Scenario& scenario);
 
  private:
   struct End {
     std::array<double, 3> position;  ///< trolley m, slew rad, cable length m
     bool load_at_rest;
   };
-  [[nodiscard]] recording::Table run_from_start(const std::filesystem::path& rig_file,
-                                                const std::string& controller,
-                                                const experiment::Scenario& scenario);
+  [[nodiscard]] RealtimeRun run_from_start(const std::filesystem::path& rig_file,
+                                           const std::string& controller,
+                                           const experiment::Scenario& scenario);
 
   RealtimeRunOptions options_;
   std::optional<End> end_;  ///< of the last run on a real crane

@@ -163,12 +163,12 @@ void RealtimeSession::arm() {
   wait_for(crane_STATE_HOLD, std::chrono::seconds{5});
 }
 
-void RealtimeSession::move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
+bool RealtimeSession::move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                               std::chrono::milliseconds patience) {
   request({.kind = crane_REQUEST_MOVE, .selected = selected, .target = target}, "move");
   wait_for(crane_STATE_RUN, std::chrono::seconds{1});
   wait_for(crane_STATE_HOLD, patience);
-  wait_for_rest(patience);
+  return wait_for_rest(patience);
 }
 
 void RealtimeSession::wait_for_sample(std::int64_t sample_time_ns, std::chrono::nanoseconds patience) {

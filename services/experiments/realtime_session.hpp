@@ -32,17 +32,17 @@ class RealtimeSession {
   void arm();
   /// Waits until the supervisor is in `wanted`. @throws SessionError after `patience` or in a stop state
   void wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience);
-  /// Moves, waits until the state is HOLD again, then waits at most `patience` until the load is at rest. A
-  /// load that still swings after this time is no error.
+  /// Moves, waits until the state is HOLD again, then waits at most `patience` until the load is at rest.
+  /// @return whether the load is at rest
   /// @throws SessionError when the move is refused or does not end within `patience`
-  void move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
+  bool move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                std::chrono::milliseconds patience);
   /// Waits until the plant has measured the state of `sample_time_ns`. @throws SessionError when this state
   /// has not arrived `patience` after its time. A state must have arrived before (arm())
   void wait_for_sample(std::int64_t sample_time_ns, std::chrono::nanoseconds patience);
   /// Waits at most `patience` until the load hangs at rest. @return whether it does
   bool wait_for_rest(std::chrono::milliseconds patience);
-  /// Waits for `duration`.
+  /// Waits for `duration`. All samples that have arrived until then are taken.
   void wait(std::chrono::nanoseconds duration);
   /// From now on, requests and waits throw SessionError when the crane is stopping, in ESTOP or in FAULT,
   /// when a cause other than a routine one (supervisor::is_routine()) has stopped it, and when any cause

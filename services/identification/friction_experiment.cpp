@@ -202,10 +202,12 @@ class Experiment {
 
   recording::Table run_part_in_realtime(const std::string& name, const fs::path& rig) {
     const auto scenario = experiment::load_scenario(file(scenario_file(name)), &rig_);
-    const auto table = realtime_runs_.run(rig, kController, scenario);
+    const auto run = realtime_runs_.run(rig, kController, scenario);
     fs::create_directories(file(name));
-    recording::write_csv(file(name) / "run.csv", table);
-    return table;
+    recording::write_csv(file(name) / "run.csv", run.table);
+    if (!run.differences.empty())
+      throw experiments::RunError(name + ": " + run.differences.front() + "; repeat the experiment");
+    return run.table;
   }
 
   id::AxisRun run_multi_sine(FrictionExperimentResult& result) {

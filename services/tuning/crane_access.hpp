@@ -1,6 +1,7 @@
 #pragma once
 /// Interface to the crane under tuning, which executes scenarios.
 #include <string>
+#include <vector>
 
 #include "crane/experiment/scenario.hpp"
 #include "crane/recording/csv.hpp"
@@ -10,6 +11,7 @@ namespace crane::tuning {
 struct Motion {
   recording::Table table;       ///< rows of one scenario; time_s is 0 at the start of the run, in HOLD
   std::string stopped_because;  ///< cause of a stop by supervisor or bridge; empty: complete
+  std::vector<std::string> differences{};  ///< from the scenario, as experiments::RealtimeRun::differences
 };
 
 class CraneAccess {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crane/identification/friction.hpp"
+#include "crane/recording/run_table.hpp"
 #include "identification/axis_data.hpp"
 #include "tuning/second_mode.hpp"
 
@@ -183,13 +184,9 @@ IdentifiedDrive drive_of(const FitResult& fit) {
 }  // namespace
 
 void require_every_tick(const recording::Table& table) {
-  const auto* ticks = table.find("tick");
-  if (ticks == nullptr) return;
-  for (std::size_t k = 1; k < ticks->size(); ++k)
-    if ((*ticks)[k] != (*ticks)[k - 1] + 1)
-      throw IdentificationError(
-          "ticks are missing at " + recording::shortest((*ticks)[k]) +
-          ": this program was suspended, or the computer was too busy; repeat the tuning");
+  if (const auto missing = recording::missing_ticks(table); !missing.empty())
+    throw IdentificationError(
+        missing + ": this program was suspended, or the computer was too busy; repeat the tuning");
 }
 
 PreparedRun prepared(const recording::Table& table, const configuration::Rig& rig) {

@@ -14,7 +14,8 @@ RealtimeCrane::RealtimeCrane(RealtimeOptions options)
 Motion RealtimeCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {
   const auto file = directory_ / kMotionRigFile;
   experiments::write_started_rig(file, rig);
-  return {runs_.run(file, "none", scenario), ""};
+  auto run = runs_.run(file, "none", scenario);
+  return {std::move(run.table), "", std::move(run.differences)};
 }
 
 }  // namespace crane::tuning

@@ -133,6 +133,7 @@ class Tuner {
     append(all_, motion.table);
     recording::write_csv(file(kMotionFile), all_);
     require_every_tick(motion.table);
+    std::ranges::copy(motion.differences, std::back_inserter(result_.differences));
     return motion;
   }
 

@@ -51,8 +51,9 @@ struct TuneResult {
   configuration::Rig tuned;  ///< rig file with identified values, law and gains
   Identification identification;
   Recommendation recommendation;
-  double motion_s = 0;     ///< total duration of all motions
-  std::uint64_t seed = 1;  ///< seed of the drawn rigs
+  double motion_s = 0;                     ///< total duration of all motions
+  std::vector<std::string> differences{};  ///< Motion::differences of all motions
+  std::uint64_t seed = 1;                  ///< seed of the drawn rigs
 };
 
 /// @throws TuningRefused, configuration::ConfigurationError for a rig that cannot be tuned, and exceptions of

@@ -3,8 +3,7 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kQuietTicks = 10;     // consecutive safe states that pass the test
-constexpr int kLongestTicks = 200;  // number of states after which the test has failed
+constexpr int kQuietTicks = 10;  // consecutive safe states that pass the test
 
 bool is_quiet(const msg::State& state) {
   for (std::size_t i = 0; i < kAxes; ++i)
@@ -21,7 +20,7 @@ SelfTest BoardSelfTest::step(const msg::State* state) {
   quiet_ = is_quiet(*state) ? quiet_ + 1 : 0;
   if (quiet_ >= kQuietTicks)
     result_ = SelfTest::passed;
-  else if (++ticks_ >= kLongestTicks)
+  else if (++ticks_ >= longest_ticks_)
     result_ = SelfTest::failed;
   return result_;
 }

@@ -1,19 +1,28 @@
 #pragma once
-/// Self-test of the board at the start: several states in a row must show 0 V, all brakes closed and the
-/// watchdog relay open. The crane cannot be armed before.
+/// Self-test of the board at the start: ten states in a row must show 0 V, all brakes closed and the watchdog
+/// relay open. The crane cannot be armed before.
 #include "crane/supervisor/state_machine.hpp"
 #include "crane/topics.hpp"
+#include "process/ticks.hpp"
 
 namespace crane::supervisor {
 
 class BoardSelfTest {
  public:
+  /// Time after which the test has failed.
+  static constexpr double kLongest_s = 2;
+
+  /// @param period_s  duration of a tick, > 0
+  explicit BoardSelfTest(double period_s) : longest_ticks_{ticks_in(kLongest_s, period_s)} {}
+
   /// @param state  state of this tick; null: none arrived
   SelfTest step(const msg::State* state);
 
  private:
   SelfTest result_ = SelfTest::not_started;
-  int quiet_ = 0, ticks_ = 0;
+  std::uint64_t longest_ticks_;
+  std::uint64_t ticks_ = 0;
+  int quiet_ = 0;  ///< consecutive safe states
 };
 
 }  // namespace crane::supervisor

@@ -1,6 +1,6 @@
 #pragma once
 /// Clock of the bridge. The bridge stamps its samples with its monotonic clock, which has an arbitrary
-/// origin. The supervisor measures silence with its own clock. Pure.
+/// origin. The supervisor measures silence with its own clock. No I/O.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -52,17 +52,17 @@ class BridgeClock {
   /// @return local time of `remote_ns`
   ///
   /// The offset is the smallest difference so far: that of the sample with the smallest delay. The offset
-  /// grows by at most kDrift_ns per call, so that the drift of the clocks does not make later samples appear
+  /// grows by at most drift_ns() per call, so that the drift of the clocks does not make later samples appear
   /// late.
   [[nodiscard]] std::int64_t local_ns(std::int64_t remote_ns, std::int64_t now_ns) {
     const auto difference_ns = now_ns - remote_ns;
-    offset_ns_ = offset_ns_ ? std::min(*offset_ns_ + kDrift_ns, difference_ns) : difference_ns;
+    offset_ns_ = offset_ns_ ? std::min(*offset_ns_ + drift_ns(), difference_ns) : difference_ns;
     return remote_ns + *offset_ns_;
   }
 
  private:
-  /// 100 ppm of a period of 10 ms: twice the frequency error of the quartz of a computer.
-  static constexpr std::int64_t kDrift_ns = 1000;
+  /// 100 ppm of a period: twice the frequency error of the quartz of a computer.
+  [[nodiscard]] std::int64_t drift_ns() const { return period_ns_ / 10'000; }
 
   /// Samples of one clock. Deviation: time minus tick times period, relative to the first sample.
   struct Series {

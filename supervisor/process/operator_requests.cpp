@@ -4,11 +4,12 @@
 
 #include "crane/runtime/node.hpp"
 #include "process/samples.hpp"
+#include "process/ticks.hpp"
 
 namespace crane::supervisor {
 namespace {
 
-constexpr int kTicksToTakeUp = 20;  // longest time from the acceptance of a move to its first reference
+constexpr double kToTakeUp_s = 0.2;  // longest time from the acceptance of a move to its first reference
 
 }  // namespace
 
@@ -83,7 +84,7 @@ void OperatorRequests::take_answers(const TickOutput& output, JogReader& jogs, d
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
     if (moves_axes(request) && verdict.accepted) {
       move_ = accepted_move(request, move_.number + 1);
-      ticks_to_take_up_ = kTicksToTakeUp;
+      ticks_to_take_up_ = ticks_in(kToTakeUp_s, limits_.period_s);
       jogs.accepted(request, sender, now_s);
     }
     answer(request, verdict.accepted, verdict.reason);

@@ -71,7 +71,7 @@ class OperatorRequests {
   std::vector<Answer> answers_;  ///< of this step, to be published
   Mode mode_ = Mode::semi_automatic;
   msg::AcceptedMove move_{};
-  int ticks_to_take_up_ = 0;
+  std::uint64_t ticks_to_take_up_ = 0;
   bool reference_moving_ = false;
 };
 

@@ -9,7 +9,7 @@ namespace crane::supervisor {
 class SoleReader {
  public:
   explicit SoleReader(const runtime::Context& context)
-      : sole_{context.bus.epoch},
+      : sole_{context.bus.epoch, context.rig.period_s},
         supervisors_{context.ports.input(topics::supervisor)},
         nodes_{context.ports.input(topics::node)},
         node_{context.node},

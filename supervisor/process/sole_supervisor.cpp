@@ -42,14 +42,14 @@ void SoleSupervisor::heard(const msg::NodeStatus& status) {
       status.phase == crane_PHASE_STOPPING)
     return;
   auto& rival = rival_with(status.header.epoch);
-  rival.established = rival.established || status.ticks > kNewTicks;
+  rival.established = rival.established || status.ticks > new_ticks_;
   rival.pid = status.pid;
   rival.vendor = status.vendor;
 }
 
 void SoleSupervisor::stepped(crane_SupervisorState state) {
   ++ticks_;
-  is_new_ = is_new_ && ticks_ <= kNewTicks && !serves(state);
+  is_new_ = is_new_ && ticks_ <= new_ticks_ && !serves(state);
 }
 
 std::string SoleSupervisor::rival() const {

@@ -1,5 +1,6 @@
 #pragma once
-/// Detects another supervisor of the same crane, at the start and later. Pure; the time is an argument.
+/// Detects another supervisor of the same crane, at the start and later. No I/O and no clock; the
+/// time is an argument.
 ///
 /// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). A new
 /// supervisor exits (yields()) beside an established supervisor, which may be in use. If both are new, the
@@ -12,19 +13,22 @@
 #include <string>
 
 #include "crane/bus/bus.hpp"
+#include "process/ticks.hpp"
 
 namespace crane::supervisor {
 
 class SoleSupervisor {
  public:
-  /// A supervisor is new until this tick or its first reset, whichever comes first. 5 s at 100 Hz: discovery
-  /// between two DDS vendors takes up to 1 s.
-  static constexpr std::uint64_t kNewTicks = 500;
+  /// A supervisor is new for this time or until its first reset, whichever is shorter. Discovery between two
+  /// DDS vendors takes up to 1 s.
+  static constexpr double kNew_s = 5;
   /// As WriterBinding::kDispute_ns: the causes of a stop must be inactive for the same time before a reset.
   static constexpr std::int64_t kDispute_ns = 1'000'000'000;
 
-  /// @param epoch  start-up number of this process
-  explicit SoleSupervisor(std::uint32_t epoch) : epoch_{epoch} {}
+  /// @param epoch     start-up number of this process
+  /// @param period_s  duration of a tick, > 0
+  SoleSupervisor(std::uint32_t epoch, double period_s)
+      : epoch_{epoch}, new_ticks_{ticks_in(kNew_s, period_s)} {}
 
   /// A sample of crane/supervisor, own samples included. @param writer  DDS writer of the sample
   void heard(const msg::SupervisorStatus& status, const bus::WriterId& writer, std::int64_t now_ns);
@@ -55,6 +59,7 @@ class SoleSupervisor {
   Rival& rival_with(std::uint32_t epoch);
 
   std::uint32_t epoch_;
+  std::uint64_t new_ticks_;
   std::uint64_t ticks_ = 0;
   bool is_new_ = true;
   std::optional<bus::WriterId> own_writer_;

@@ -35,7 +35,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         limits_{limits_of(context.rig)},
         realtime_{context.clock == runtime::Clock::realtime},
         timing_{limits_.period_s, context.clock},
-        echo_{{limits_.axis[0].present, limits_.axis[1].present, limits_.axis[2].present}},
+        echo_{{limits_.axis[0].present, limits_.axis[1].present, limits_.axis[2].present}, limits_.period_s},
         requests_{context, limits_},
         jogs_{context},
         sole_{context},
@@ -84,7 +84,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     input.second_writer =
         (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
     if (input.bridge_restarted) {
-      self_test_ = {};
+      self_test_ = BoardSelfTest{limits_.period_s};
       echo_.restart();
     }
     input.self_test = self_test_.step(state);
@@ -196,7 +196,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   SoleReader sole_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
-  BoardSelfTest self_test_;
+  BoardSelfTest self_test_{limits_.period_s};
   TickMemory memory_;
   msg::Header last_header_{};
   std::int64_t now_ns_ = 0;

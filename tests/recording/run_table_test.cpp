@@ -136,5 +136,12 @@ TEST(RunTable, ReportsAPayloadThatDoesNotFitItsSchema) {
   EXPECT_THROW((void)run_table(reader), DecodeError);
 }
 
+TEST(MissingTicks, AreCountedFromTheFirstGap) {
+  EXPECT_EQ(missing_ticks({{{"tick", {4, 5, 6}}}}), "");
+  EXPECT_EQ(missing_ticks({{{"time_s", {4, 6}}}}), "");
+  EXPECT_EQ(missing_ticks({{{"tick", {4, 5, 7}}}}), "1 tick is missing, after tick 5");
+  EXPECT_EQ(missing_ticks({{{"tick", {4, 7, 8, 10}}}}), "3 ticks are missing, the first after tick 4");
+}
+
 }  // namespace
 }  // namespace crane::recording

@@ -32,7 +32,7 @@ class Echo : public testing::Test {
     return 0;
   }
 
-  CommandEcho echo_{{true, true, true}};
+  CommandEcho echo_{{true, true, true}, 0.01};
   std::uint64_t tick_ = 100;
   double volts_ = 0;
   bool released_ = false;
@@ -83,14 +83,14 @@ TEST_F(Echo, DetectsABrakeThatIsOpenWithoutARelease) {
   auto state = report();
   state.brake_closed[2] = false;
   EXPECT_EQ(noticed_after(state), 0) << "it may still be closing";
-  for (std::uint64_t i = 0; i <= CommandEcho::kBrake_ticks; ++i) command(0, false);
+  for (std::uint64_t i = 0; i <= ticks_in(CommandEcho::kBrake_s, 0.01); ++i) command(0, false);
   state = report();
   state.brake_closed[2] = false;
   EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
 }
 
 TEST_F(Echo, IgnoresTheBrakesOfAbsentDrives) {
-  CommandEcho echo{{true, true, false}};
+  CommandEcho echo{{true, true, false}, 0.01};
   msg::Command command{};
   echo.commanded(command);
   msg::State state{};
@@ -105,6 +105,29 @@ TEST_F(Echo, AcceptsAnyCommandOfATickThatWasCommandedTwice) {
   again.header.tick = tick_;
   echo_.commanded(again);
   EXPECT_EQ(noticed_after(report()), 0);
+}
+
+/// The durations hold for a period of 1 ms, too.
+class FastEcho : public Echo {
+ protected:
+  FastEcho() { echo_ = CommandEcho{{true, true, true}, 0.001}; }
+};
+
+TEST_F(FastEcho, AcceptsACommandOfTheLargestPermittedAge) {
+  command(5, true);
+  const auto old = report();
+  for (int i = 0; i < 100; ++i) command(0, true);
+  EXPECT_EQ(noticed_after(old, 5), 0);
+}
+
+TEST_F(FastEcho, AcceptsABrakeThatClosesWithin200Milliseconds) {
+  command(0, true);
+  for (int i = 0; i < 200; ++i) {
+    command(0, false);
+    auto closing = report();
+    closing.brake_closed[0] = false;
+    ASSERT_FALSE(echo_.contradicts(closing)) << i << " ms";
+  }
 }
 
 }  // namespace

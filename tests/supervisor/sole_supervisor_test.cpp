@@ -15,6 +15,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr std::int64_t kSoleTick_ns = 10'000'000;
+constexpr double kSoleTick_s = 1e-9 * kSoleTick_ns;
+constexpr std::uint64_t kNewTicks = 500;  // 5 s
 
 msg::SupervisorStatus sole_status(std::uint32_t epoch, crane_SupervisorState state = crane_STATE_LOCKED) {
   msg::SupervisorStatus status{};
@@ -41,7 +43,7 @@ bus::WriterId sole_writer(std::uint8_t number) {
 }
 
 TEST(SoleSupervisor, IsNotDisputedByItsOwnSamplesAndThoseOfOtherProcesses) {
-  SoleSupervisor sole{7};
+  SoleSupervisor sole{7, kSoleTick_s};
   sole.heard(sole_status(7), sole_writer(1), 0);
   sole.heard(sole_node(7, 1000));
   sole.heard(sole_node(1, 1000, crane_SOURCE_TRACKING));
@@ -50,7 +52,7 @@ TEST(SoleSupervisor, IsNotDisputedByItsOwnSamplesAndThoseOfOtherProcesses) {
 }
 
 TEST(SoleSupervisor, WithTheLargerStartUpNumberEndsAndNamesTheOther) {
-  SoleSupervisor smaller{3}, larger{7};
+  SoleSupervisor smaller{3, kSoleTick_s}, larger{7, kSoleTick_s};
   smaller.heard(sole_status(7), sole_writer(2), 0);
   larger.heard(sole_status(3), sole_writer(1), 0);
   larger.heard(sole_node(3, 1));
@@ -62,39 +64,46 @@ TEST(SoleSupervisor, WithTheLargerStartUpNumberEndsAndNamesTheOther) {
 }
 
 TEST(SoleSupervisor, DoesNotEndBecauseOfAStatusThatEveryProcessMayWrite) {
-  SoleSupervisor larger{7};
-  larger.heard(sole_node(3, SoleSupervisor::kNewTicks + 1));
+  SoleSupervisor larger{7, kSoleTick_s};
+  larger.heard(sole_node(3, kNewTicks + 1));
   EXPECT_FALSE(larger.yields());
   larger.heard(sole_status(5), sole_writer(2), 0);  // of another start-up number: a third program
-  larger.heard(sole_node(3, SoleSupervisor::kNewTicks + 1));
+  larger.heard(sole_node(3, kNewTicks + 1));
   EXPECT_FALSE(larger.yields());
   larger.heard(sole_status(3), sole_writer(1), 0);
   EXPECT_TRUE(larger.yields());
 }
 
+/// 600 ticks of 1 ms are less than the discovery of the other supervisor may take.
+TEST(SoleSupervisor, WithAPeriodOf1msIsNewForFiveSecondsToo) {
+  SoleSupervisor larger{7, 0.001};
+  for (int tick = 0; tick < 600; ++tick) larger.stepped(crane_STATE_LOCKED);
+  larger.heard(sole_status(3), sole_writer(1), 0);
+  EXPECT_TRUE(larger.yields());
+}
+
 TEST(SoleSupervisor, IgnoresTheStatusOfASupervisorThatStops) {
-  SoleSupervisor other{7};
-  auto stopping = sole_node(3, SoleSupervisor::kNewTicks + 1);
+  SoleSupervisor other{7, kSoleTick_s};
+  auto stopping = sole_node(3, kNewTicks + 1);
   stopping.phase = crane_PHASE_STOPPING;
   other.heard(stopping);
   EXPECT_EQ(other.rival(), "");
 }
 
 TEST(SoleSupervisor, BesideAnEstablishedOneEndsWhateverItsStartUpNumber) {
-  SoleSupervisor of_state{3}, of_age{3};
+  SoleSupervisor of_state{3, kSoleTick_s}, of_age{3, kSoleTick_s};
   of_state.heard(sole_status(7, crane_STATE_HOLD), sole_writer(2), 0);
   EXPECT_TRUE(of_state.yields());
   of_age.heard(sole_status(7), sole_writer(2), 0);
   EXPECT_FALSE(of_age.yields());
-  of_age.heard(sole_node(7, SoleSupervisor::kNewTicks + 1));
+  of_age.heard(sole_node(7, kNewTicks + 1));
   EXPECT_TRUE(of_age.yields());
 }
 
 TEST(SoleSupervisor, ThatIsEstablishedNeverEndsButRefusesToMove) {
-  SoleSupervisor after_reset{7}, after_time{7};
+  SoleSupervisor after_reset{7, kSoleTick_s}, after_time{7, kSoleTick_s};
   after_reset.stepped(crane_STATE_READY);
-  for (std::uint64_t tick = 0; tick <= SoleSupervisor::kNewTicks; ++tick)
-    after_time.stepped(crane_STATE_LOCKED);
+  for (std::uint64_t tick = 0; tick <= kNewTicks; ++tick) after_time.stepped(crane_STATE_LOCKED);
   for (auto* sole : {&after_reset, &after_time}) {
     sole->heard(sole_status(3, crane_STATE_RUN), sole_writer(2), 0);
     sole->heard(sole_node(3, 100'000));
@@ -104,7 +113,7 @@ TEST(SoleSupervisor, ThatIsEstablishedNeverEndsButRefusesToMove) {
 }
 
 TEST(SoleSupervisor, IsDisputedByAnotherWriterWithItsOwnStartUpNumber) {
-  SoleSupervisor sole{7};
+  SoleSupervisor sole{7, kSoleTick_s};
   sole.heard(sole_status(7), sole_writer(1), 0);
   sole.heard(sole_status(7), sole_writer(2), 0);
   EXPECT_TRUE(sole.disputed(1));
@@ -134,8 +143,8 @@ TEST(SoleSupervisor, NeverEndsTogetherWithTheOtherInRandomOrders) {
   for (int trial = 0; trial < 2000; ++trial) {
     const auto make = [&] {
       const auto epoch = static_cast<std::uint32_t>(random()) | 1U;
-      return SoleProcess{SoleSupervisor{epoch}, epoch,        pick(0, 200),
-                         pick(0, 1500),         pick(0, 300), pick(0, 100)};
+      return SoleProcess{
+          SoleSupervisor{epoch, kSoleTick_s}, epoch, pick(0, 200), pick(0, 1500), pick(0, 300), pick(0, 100)};
     };
     std::array both{make(), make()};
     for (int tick = 0; tick < 2000; ++tick)

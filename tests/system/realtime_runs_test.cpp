@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include "../recording/temporary_directory.hpp"
 #include "experiments/realtime_run.hpp"
 #include "program_run.hpp"
@@ -67,6 +69,27 @@ TEST(RealtimeRuns, EndAtAStopOfTheOperator) {
     EXPECT_NE(entry.path().filename(), "run.csv") << "a stopped run was reported as measured";
 }
 
+/// The run is kept: its rows are measured. The user learns that they are not the run of the scenario.
+TEST(RealtimeRuns, NameARequestThatASuspensionOfTheProgramDelayed) {
+  const TemporaryDirectory directory;
+  const std::string crane = crane_name();
+  ProgramRun run{stack::program_directory() / "crane",
+                 {"run", "maneuver_1", "--clock", "realtime", "--out", (directory / "").string(), "--domain",
+                  std::to_string(kDomain), "--crane", crane}};
+  Watcher watcher{crane + "_run_" + std::to_string(run.pid())};
+  const auto is = [](crane_SupervisorState state) {
+    return [state](const auto& status) { return status.state == state; };
+  };
+  ASSERT_TRUE(watcher.until(is(crane_STATE_RUN), 30s));  // move to the start of the scenario
+  ASSERT_TRUE(watcher.until(is(crane_STATE_HOLD), 30s));
+  ::kill(run.pid(), SIGSTOP);
+  EXPECT_FALSE(watcher.until(is(crane_STATE_RUN), 2s));
+  ::kill(run.pid(), SIGCONT);
+  EXPECT_EQ(run.wait(30s), 0);
+  EXPECT_THAT(run.errors(), testing::ContainsRegex("warning: the request of 0.5 s was sent .* s late"));
+  EXPECT_TRUE(std::filesystem::exists(directory / "run.csv"));
+}
+
 experiment::Scenario scenario(const TemporaryDirectory& directory, const std::string& name,
                               const std::string& moves) {
   const auto file = directory / name;
@@ -91,7 +114,9 @@ TEST(RealtimeRuns, OnARealCraneBeginWhereTheRunBeforeHasEnded) {
   const auto stays =
       runs.run(rig, "gain_scheduling_partial",
                scenario(directory, "stays.toml", "[[move]]\nat_s = 0.1\nslew_angle_rad = 0.1\n"));
-  const auto trolley = [](const recording::Table& table) { return *table.find("trolley_position_m"); };
+  const auto trolley = [](const experiments::RealtimeRun& run) {
+    return *run.table.find("trolley_position_m");
+  };
   ASSERT_FALSE(trolley(there).empty());
   ASSERT_FALSE(trolley(stays).empty());
   EXPECT_NEAR(trolley(there).back(), 0.6, 0.02);

@@ -157,6 +157,21 @@ Table RunTable::table(std::int64_t zero_time_ns) const {
   return result;
 }
 
+std::string missing_ticks(const Table& table) {
+  const auto* ticks = table.find("tick");
+  if (ticks == nullptr) return {};
+  double missing = 0, first_after = 0;
+  for (std::size_t k = 1; k < ticks->size(); ++k) {
+    const double skipped = (*ticks)[k] - (*ticks)[k - 1] - 1;
+    if (skipped > 0 && missing == 0) first_after = (*ticks)[k - 1];
+    missing += skipped;
+  }
+  if (missing == 0) return {};
+  return shortest(missing) +
+         (missing == 1 ? " tick is missing, after tick " : " ticks are missing, the first after tick ") +
+         shortest(first_after);
+}
+
 std::optional<std::uint32_t> messages_version(const McapReader& recording) {
   for (const auto& channel : recording.channels()) {
     const SchemaRecord* record = recording.find_schema(channel.schema_id);

@@ -181,8 +181,9 @@ int run_each_in_realtime(const RunOptions& options, const std::vector<experiment
     if (plans.size() > 1) directory /= directory_name(options, plan);
     require_other({directory / "run.csv"}, plans);
     std::filesystem::create_directories(directory);  // an error is reported before any motion
-    const auto table = runs.run(plan.rig.path, std::string{plan.controller->name}, plan.scenario);
-    recording::write_csv(directory / "run.csv", table);
+    const auto run = runs.run(plan.rig.path, std::string{plan.controller->name}, plan.scenario);
+    recording::write_csv(directory / "run.csv", run.table);
+    for (const auto& difference : run.differences) std::cerr << "warning: " << difference << '\n';
     std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
               << (directory / "run.csv").string() << '\n';
   }

@@ -104,6 +104,7 @@ int run(const TuneCommand& command) {
     options.progress = [](const std::string& text) { std::cerr << "\r\033[K" << text << std::flush; };
   const auto result = tuning::tune(rig, *crane, options);
   if (terminal) std::cerr << "\r\033[K";
+  for (const auto& difference : result.differences) std::cerr << "warning: " << difference << '\n';
   if (command.json)
     std::cout << tuning::to_json(result, rig).dump(2) << '\n';
   else

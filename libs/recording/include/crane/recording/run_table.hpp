@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "crane/plant/coordinates.hpp"
 #include "crane/plant/state.hpp"
@@ -43,6 +44,10 @@ class RunTable {
   [[nodiscard]] Row& row(std::uint64_t tick);
   std::map<std::uint64_t, Row> rows_;
 };
+
+/// @return "366 ticks are missing, the first after tick 1058"; empty when none is missing or the table has no
+///   column `tick`
+[[nodiscard]] std::string missing_ticks(const Table& table);
 
 /// Version of the messages in a recording: crane::MESSAGES_VERSION of its schema. Nothing: the recording has
 /// no crane topics, or is older than the first version; its topics are those of version 1.
