@@ -60,6 +60,8 @@ class Tuner {
     result_.seed = options.seed;
     require_other_files(rig, options);
     fs::create_directories(options.directory);
+    for (const char* name : {kMotionFile, kJsonFile, kPageFile, kRigFile})
+      files::require_writable(file(name));
   }
 
   TuneResult run() {

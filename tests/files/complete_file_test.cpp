@@ -153,5 +153,13 @@ TEST_F(Replaced, AMissingDirectoryIsNamed) {
   EXPECT_EQ(refusal_of("/nowhere/file"), "/nowhere/file: cannot write: No such file or directory");
 }
 
+TEST(RequireWritable, ChangesNothingAndRefusesADirectory) {
+  const recording::TemporaryDirectory directory;
+  require_writable(directory / "new.csv");
+  EXPECT_FALSE(std::filesystem::exists(directory / "new.csv"));
+  std::filesystem::create_directory(directory / "taken.csv");
+  EXPECT_THROW(require_writable(directory / "taken.csv"), WriteError);
+}
+
 }  // namespace
 }  // namespace crane::files

@@ -73,9 +73,13 @@ TEST(RealtimeRuns, EndAtAStopOfTheOperator) {
 TEST(RealtimeRuns, NameARequestThatASuspensionOfTheProgramDelayed) {
   const TemporaryDirectory directory;
   const std::string crane = crane_name();
+  const auto short_run = directory / "short.toml";
+  recording::put_contents(short_run,
+                          "description = \"a test\"\nduration_s = 1\n[start]\ntrolley_position_m = 0.3\n"
+                          "[[move]]\nat_s = 0.5\ntrolley_position_m = 0.35\n");
   ProgramRun run{stack::program_directory() / "crane",
-                 {"run", "maneuver_1", "--clock", "realtime", "--out", (directory / "").string(), "--domain",
-                  std::to_string(kDomain), "--crane", crane}};
+                 {"run", short_run.string(), "--clock", "realtime", "--out", (directory / "out").string(),
+                  "--domain", std::to_string(kDomain), "--crane", crane}};
   Watcher watcher{crane + "_run_" + std::to_string(run.pid())};
   const auto is = [](crane_SupervisorState state) {
     return [state](const auto& status) { return status.state == state; };
@@ -87,7 +91,7 @@ TEST(RealtimeRuns, NameARequestThatASuspensionOfTheProgramDelayed) {
   ::kill(run.pid(), SIGCONT);
   EXPECT_EQ(run.wait(30s), 0);
   EXPECT_THAT(run.errors(), testing::ContainsRegex("warning: the request of 0.5 s was sent .* s late"));
-  EXPECT_TRUE(std::filesystem::exists(directory / "run.csv"));
+  EXPECT_TRUE(std::filesystem::exists(directory / "out" / "run.csv"));
 }
 
 experiment::Scenario scenario(const TemporaryDirectory& directory, const std::string& name,

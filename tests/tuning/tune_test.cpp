@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "../recording/temporary_directory.hpp"
+#include "crane/files/complete_file.hpp"
 #include "crane/workers/process_pool.hpp"
 #include "experiments/lockstep_run.hpp"
 #include "hidden_rig.hpp"
@@ -202,6 +203,15 @@ TEST(TuneFiles, NeverReplaceTheRigFileOrTheHiddenRig) {
   EXPECT_THROW((void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane, options),
                configuration::ConfigurationError);
   EXPECT_EQ(recording::contents_of(file), text);
+}
+
+TEST(TuneFiles, ThatCannotBeWrittenAreRefusedBeforeAnyMotion) {
+  const recording::TemporaryDirectory directory;
+  std::filesystem::create_directories(directory / "out" / kRigFile);
+  StoppingCrane crane;  // a motion would end with TuningRefused
+  EXPECT_THROW((void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane,
+                          options_for(directory / "out")),
+               files::WriteError);
 }
 
 TEST(HiddenRigs, AGantryIsTunedAndSettlesAsPredicted) {

@@ -107,6 +107,11 @@ void write_file(const fs::path& file, const std::function<void(std::ostream&)>& 
   complete.publish();
 }
 
+void require_writable(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_other(file, ignored)) const CompleteFile removed_again{file};
+}
+
 void write_file(const fs::path& file, std::string_view text) {
   write_file(file, [text](std::ostream& out) { out << text; });
 }

@@ -175,17 +175,24 @@ void require_possible_in_realtime(const RunOptions& options,
 int run_each_in_realtime(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   require_possible_in_realtime(options, plans);
   const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(options.plant));
+  const auto directory_of = [&](const experiments::PlannedRun& plan) {
+    const std::filesystem::path directory{options.out};
+    return plans.size() > 1 ? directory / directory_name(options, plan) : directory;
+  };
+  for (const auto& plan : plans) {  // an error is reported before any motion
+    const auto file = directory_of(plan) / "run.csv";
+    require_other({file}, plans);
+    std::filesystem::create_directories(file.parent_path());
+    files::require_writable(file);
+  }
   experiments::RealtimeRuns runs{{.plant = options.plant, .bus = options.bus, .vendors = vendors}};
   for (const auto& plan : plans) {
-    std::filesystem::path directory{options.out};
-    if (plans.size() > 1) directory /= directory_name(options, plan);
-    require_other({directory / "run.csv"}, plans);
-    std::filesystem::create_directories(directory);  // an error is reported before any motion
+    const auto file = directory_of(plan) / "run.csv";
     const auto run = runs.run(plan.rig.path, std::string{plan.controller->name}, plan.scenario);
-    recording::write_csv(directory / "run.csv", run.table);
+    recording::write_csv(file, run.table);
     for (const auto& difference : run.differences) std::cerr << "warning: " << difference << '\n';
     std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
-              << (directory / "run.csv").string() << '\n';
+              << file.string() << '\n';
   }
   return runtime::kExitDone;
 }

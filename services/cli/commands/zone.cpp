@@ -17,6 +17,7 @@
 #include "crane/configuration/zone_editor.hpp"
 #include "crane/fields/printable.hpp"
 #include "crane/files/complete_file.hpp"
+#include "crane/files/directory_lock.hpp"
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/recording/run_table.hpp"
 #include "crane/runtime/process.hpp"
@@ -84,10 +85,13 @@ void require_other_files(const ZoneOptions& options, const std::filesystem::path
   configuration::require_other({options.out.empty() ? rig : std::filesystem::path{options.out}}, inputs);
 }
 
-/// Replaces the rig file, or the file of --out, by the new text.
-void write(const ZoneOptions& options, const std::filesystem::path& rig, const std::string& text) {
+/// Replaces the rig file, or the file of --out, by its changed text.
+template <class Change>
+void rewrite(const ZoneOptions& options, const std::filesystem::path& rig, Change change) {
   const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
   if (!options.out.empty()) require_new(target, options.force);
+  const files::DirectoryLock lock{target.parent_path()};
+  const auto text = change(configuration::file_text(rig), rig.string());
   files::write_file(target, configuration::moved(text, rig, target));
   std::cout << target.string() << ": written; it takes effect when the stack starts again\n";
 }
@@ -136,7 +140,9 @@ int learn(const ZoneOptions& options) {
   if (zone.top_m - zone.bottom_m < kSmallest_m)
     throw std::runtime_error(
         "the height of the hook did not change: state the height of the obstacle with --top (and --bottom)");
-  write(options, path, configuration::with_zone(configuration::file_text(path), path.string(), zone));
+  rewrite(options, path, [&zone](const std::string& text, const std::string& file) {
+    return configuration::with_zone(text, file, zone);
+  });
   std::cout << box.samples() << " positions of the hook"
             << (box.skipped() > 0 ? ", " + std::to_string(box.skipped()) + " skipped" : "") << ":\n";
   print({zone});
@@ -146,8 +152,9 @@ int learn(const ZoneOptions& options) {
 int remove(const ZoneOptions& options) {
   const auto path = stack::find_rig(options.rig);
   require_other_files(options, path);
-  write(options, path,
-        configuration::without_zone(configuration::file_text(path), path.string(), options.name));
+  rewrite(options, path, [&options](const std::string& text, const std::string& file) {
+    return configuration::without_zone(text, file, options.name);
+  });
   return runtime::kExitDone;
 }
 

@@ -45,6 +45,10 @@ class CompleteFile {
   bool published_ = false;
 };
 
+/// Call before the work whose result `file` will contain. Changes nothing. @throws WriteError, as
+/// CompleteFile
+void require_writable(const std::filesystem::path& file);
+
 /// Writes `file` completely, or leaves it as it was. Devices and pipes receive the bytes directly.
 /// @throws WriteError, as CompleteFile; exceptions of `write`
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream& out)>& write,
