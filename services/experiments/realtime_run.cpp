@@ -75,6 +75,27 @@ std::optional<std::string> lateness(double at_s, double sent_s, double period_s)
   return text.str();
 }
 
+/// Longest time between the last state and the end of the processes. An operator who resets and arms the
+/// crane in this time cannot have moved it: a reset and the test of the brakes last longer.
+constexpr std::int64_t kUnobserved_ns = 1'000'000'000;
+
+/// Call when the processes have ended. @return reason why the bridge must not start at the last position
+std::string end_problem(const RealtimeSession& session, const configuration::Rig& rig, bool load_at_rest) {
+  const msg::State& last = *session.state();
+  if (session.taken_over()) return "another operator has reset the crane after the run before";
+  if (runtime::monotonic_ns() - last.header.sample_time_ns > kUnobserved_ns)
+    return "the end of the run before was not observed: this program was suspended, or the computer was too "
+           "busy";
+  for (std::size_t i = 0; i < plant::kAxes; ++i)
+    if (rig.drives[i].present && !last.brake_closed[i])
+      return "the brakes were open at the end of the run before";
+  if (!load_at_rest)
+    return "the load still swings after the run before, and the bridge sets the swing to zero: wait until "
+           "the "
+           "load hangs at rest";
+  return {};
+}
+
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
 
 }  // namespace
@@ -82,10 +103,8 @@ std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(t
 RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
                               const experiment::Scenario& scenario) {
   if (!end_) return run_from_start(rig_file, controller, scenario);
-  if (!end_->load_at_rest)
-    throw SessionError(
-        "the load still swings after the run before: the bridge cannot set the swing to zero; wait until the "
-        "load hangs at rest, set [start] to the present position, and start the remaining runs");
+  if (!end_->problem.empty())
+    throw SessionError(end_->problem + ". Set [start] to the present position, and start the remaining runs");
   auto rig = configuration::load_rig(rig_file);
   rig.start.position = end_->position;
   const files::TemporaryDirectory directory{"crane_run"};
@@ -133,11 +152,13 @@ RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, 
     run.differences.push_back(missing + ": this program was suspended, or the computer was too busy");
   const bool at_rest = !real || !rig.has_load() || session.wait_for_rest(kPatience);
   session.disarm();
-  if (real) {
-    const msg::State& last = *session.state();
-    end_ = End{{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m}, at_rest};
-  }
   children.stop();
+  if (real) {
+    session.wait(100ms);  // the last states of the bridge
+    const msg::State& last = *session.state();
+    end_ = End{{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m},
+               end_problem(session, rig, at_rest)};
+  }
   return run;
 }
 

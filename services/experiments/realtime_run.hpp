@@ -38,7 +38,8 @@ class RealtimeRuns {
   explicit RealtimeRuns(RealtimeRunOptions options) : options_{std::move(options)} {}
 
   /// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
-  /// @throws SessionError when the crane was stopped, or when the load still swings after the run before;
+  /// @throws SessionError when the crane was stopped; when the run before has left a swinging load, another
+  ///   operator has reset the crane since then, or its position is not known;
   ///   configuration::ConfigurationError, std::runtime_error
   [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
                                 const experiment::Scenario& scenario);
@@ -46,7 +47,7 @@ class RealtimeRuns {
  private:
   struct End {
     std::array<double, 3> position;  ///< trolley m, slew rad, cable length m
-    bool load_at_rest;
+    std::string problem;             ///< reason why no further run may start; empty: none
   };
   [[nodiscard]] RealtimeRun run_from_start(const std::filesystem::path& rig_file,
                                            const std::string& controller,

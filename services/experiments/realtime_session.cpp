@@ -16,6 +16,14 @@ std::string in_words(const msg::SupervisorStatus& status) {
          supervisor::name_of(cause) + "; " + supervisor::remedy_for(cause);
 }
 
+namespace {
+
+bool is_reset(const msg::SupervisorStatus& status) {
+  return status.state >= crane_STATE_READY && status.state <= crane_STATE_RUN;
+}
+
+}  // namespace
+
 std::uint64_t unique_first_id() {
   return (static_cast<std::uint64_t>(runtime::monotonic_ns()) << 16U) +
          (static_cast<std::uint64_t>(::getpid()) & 0xFFFFU);
@@ -52,6 +60,7 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
   while (const auto sample = demands_.take()) table_.add(*sample);
   while (const auto sample = statuses_.take()) {
     table_.add(*(status_ = sample));
+    note_reset(*sample);
     end_if_stopped(*sample);
     end_if_replaced(sample->move);
   }
@@ -60,6 +69,15 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
   next_meanwhile_ns_ = runtime::monotonic_ns() + 20'000'000;
   meanwhile_();
 }
+
+void RealtimeSession::note_reset(const msg::SupervisorStatus& status) {
+  if (!disarmed_) return;
+  taken_over_ = taken_over_ || (locked_ && is_reset(status));
+  locked_ = locked_ || status.state == crane_STATE_LOCKED;
+}
+
+/// After a long suspension of this program, the samples of LOCKED may be lost.
+bool RealtimeSession::taken_over() const { return taken_over_ || (disarmed_ && is_reset(*status_)); }
 
 void RealtimeSession::end_if_stopped(const msg::SupervisorStatus& status) {
   if (!ends_at_stops_) return;
@@ -85,7 +103,8 @@ void RealtimeSession::end_if_replaced(const msg::AcceptedMove& move) {
 void RealtimeSession::disarm() {
   ends_at_stops_ = false;
   request({.kind = crane_REQUEST_DISARM}, "disarm");
-  wait(std::chrono::milliseconds{300});
+  disarmed_ = true;
+  until([this] { return locked_; }, std::chrono::seconds{2});
 }
 
 template <class Condition>

@@ -50,9 +50,11 @@ class RealtimeSession {
   /// supervisor has accepted a move of another client after the first HOLD: the session must not replace the
   /// move of another operator.
   void end_at_stops() { ends_at_stops_ = true; }
-  /// Disarms the crane and waits until its brakes close. Afterwards, stops and moves of others end nothing.
-  /// @throws SessionError
+  /// Disarms the crane and waits at most 2 s until it is LOCKED. Afterwards, stops and moves of others end
+  /// nothing. @throws SessionError
   void disarm();
+  /// @return whether an operator has reset the crane after disarm()
+  [[nodiscard]] bool taken_over() const;
 
   /// All measurements since the last call of start_table().
   [[nodiscard]] const recording::RunTable& table() const { return table_; }
@@ -64,6 +66,7 @@ class RealtimeSession {
   /// @return reason of the supervisor's refusal; empty when accepted. @throws SessionError without an answer
   std::string refusal_of(const stack::OperatorRequest& wanted, const std::string& what);
   void take(std::chrono::nanoseconds timeout);
+  void note_reset(const msg::SupervisorStatus& status);
   /// @throws SessionError, see end_at_stops()
   void end_if_stopped(const msg::SupervisorStatus& status);
   /// @throws SessionError, see end_at_stops()
@@ -85,6 +88,9 @@ class RealtimeSession {
   std::uint64_t first_id_ = 0, last_id_ = 0;  ///< of the requests of this session; 0: none sent yet
   std::uint64_t move_number_ = 0;             ///< AcceptedMove.number of the newest status
   bool ends_at_stops_ = false, was_in_hold_ = false;
+  bool disarmed_ = false;    ///< disarm() was called
+  bool locked_ = false;      ///< the crane was LOCKED since then
+  bool taken_over_ = false;  ///< a reset has ended LOCKED
 };
 
 /// Text of state, cause and remedy: "STOP_C1 because of SWING_LIMIT; remedy".

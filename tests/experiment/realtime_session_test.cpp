@@ -133,12 +133,14 @@ class SharedSupervisor {
   }
   [[nodiscard]] int moves() const { return moves_; }
   [[nodiscard]] int ticks() const { return ticks_; }
+  void reset_by_another() { is_reset_ = true; }
 
  private:
   static constexpr int kMoveTicks = 10;
 
   void run() {
     while (!ends_) {
+      if (is_reset_.exchange(false)) status_.state = crane_STATE_READY;
       if (moving_ticks_ > 0 && --moving_ticks_ == 0) status_.state = crane_STATE_HOLD;
       if (replaced_ == Replaced::during_the_move && moving_ticks_ == kMoveTicks / 2) begin_of_another();
       if (replaced_ == Replaced::in_hold && moves_ == 1 && moving_ticks_ == 0) begin_of_another();
@@ -170,6 +172,7 @@ class SharedSupervisor {
     reply.accepted = true;
     if (request.kind == crane_REQUEST_RESET) status_.state = crane_STATE_READY;
     if (request.kind == crane_REQUEST_ARM) status_.state = crane_STATE_HOLD;
+    if (request.kind == crane_REQUEST_DISARM) status_.state = crane_STATE_LOCKED;
     const bool moves = request.kind == crane_REQUEST_MOVE && request.id != 0;
     if (moves) begin(request.id), ++moves_;
     if (moves && replaced_ == Replaced::in_the_same_tick) begin_of_another();
@@ -192,9 +195,26 @@ class SharedSupervisor {
   Replaced replaced_;
   int moving_ticks_ = 0;
   std::atomic<int> moves_ = 0, ticks_ = 0;
-  std::atomic<bool> ends_ = false;
+  std::atomic<bool> ends_ = false, is_reset_ = false;
   std::thread thread_;
 };
+
+/// The next run must not take the crane back.
+TEST(SessionAfterItsDisarm, NoticesTheResetOfAnotherOperator) {
+  const auto network = bus::make_memory_network();
+  SharedSupervisor supervisor{network, SharedSupervisor::Replaced::never};
+  bus::Bus bus{options_on(network, "session", crane_SOURCE_OPERATOR)};
+  RealtimeSession session{bus, [] {}};
+  session.end_at_stops();
+  session.arm();
+  session.disarm();
+  EXPECT_EQ(session.status()->state, crane_STATE_LOCKED);
+  session.wait(std::chrono::milliseconds{50});
+  EXPECT_FALSE(session.taken_over());
+  supervisor.reset_by_another();
+  session.wait(std::chrono::milliseconds{100});
+  EXPECT_TRUE(session.taken_over());
+}
 
 /// @return the reason for which the session ended before its second move was executed; empty: it did not end
 std::string drive_twice(const std::shared_ptr<bus::MemoryNetwork>& network) {
