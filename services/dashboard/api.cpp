@@ -110,6 +110,7 @@ ApiAnswer Api::get(const ApiRequest& request) {
             .body = metrics(model_, counts_(), runtime::monotonic_ns())};
   if (path == "/api/about") return about(request.visitor);
   if (path == "/api/situation") return {.body = model_.text(Document::situation)};
+  if (path == "/api/tick") return tick();
   if (path == "/api/traffic") return {.body = model_.text(Document::traffic)};
   if (path == "/api/faults") return {.body = model_.text(Document::faults)};
   if (path == "/api/operator") return {.body = model_.text(Document::seat)};
@@ -120,6 +121,11 @@ ApiAnswer Api::get(const ApiRequest& request) {
   if (path == "/api/request" || path.starts_with("/api/operator/"))
     return problem_answer(405, "POST is expected");
   return problem_answer(404, "this path does not exist; docs/dashboard.md lists the paths");
+}
+
+ApiAnswer Api::tick() const {
+  const auto& status = model_.situation().supervisor();
+  return json_answer({{"tick", status ? ordered_json(status->header.tick) : ordered_json(nullptr)}});
 }
 
 ApiAnswer Api::about(const Visitor& visitor) const {
@@ -189,12 +195,23 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
 }
 
 void Api::request(const ApiRequest& request, Answer answer) {
-  const auto wanted = operator_request_of(request.body);
-  if (!is_stop(wanted.kind) && !model_.seat().renew(request.seat_key, runtime::monotonic_ns()))
-    return answer(problem_answer(409, "take the controls first: one operator at a time"));
-  send_(wanted, [answer = std::move(answer)](const Reply& reply) {
+  auto wanted = operator_request_of(request.body);
+  const auto reply_with = [answer](const Reply& reply) {
     answer(json_answer({{"accepted", reply.accepted}, {"reason", reply.reason}}));
-  });
+  };
+  if (!is_stop(wanted.kind)) {
+    const auto now_ns = runtime::monotonic_ns();
+    if (!model_.seat().renew(request.seat_key, now_ns))
+      return answer(problem_answer(409, "take the controls first: one operator at a time"));
+    const auto tick = number_of<std::uint64_t>(
+        request.seen_tick, "X-Crane-Tick, the tick of the newest crane/supervisor (GET /api/tick)");
+    // An interrupted connection can deliver a request late. The supervisor compares this tick with the last
+    // stop.
+    const auto seen = model_.situation().status_of(tick, now_ns);
+    if (!seen) return reply_with({false, "its sender has not seen the crane within the last 2 s"});
+    wanted.seen = *seen;
+  }
+  send_(wanted, reply_with);
 }
 
 }  // namespace crane::dashboard

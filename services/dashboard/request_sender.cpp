@@ -18,8 +18,7 @@ constexpr std::int64_t kRepeat_ns = 100'000'000;      // period of the repetitio
 }  // namespace
 
 RequestSender::RequestSender(bus::Bus& bus)
-    : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()},
-      statuses_{bus.subscriber(topics::supervisor)} {}
+    : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()} {}
 
 void RequestSender::send(const stack::OperatorRequest& wanted, Answered answered) {
   if (is_stop(wanted.kind)) {
@@ -30,10 +29,7 @@ void RequestSender::send(const stack::OperatorRequest& wanted, Answered answered
     return answered({false, "too many requests wait for the supervisor: try again"});
   }
   const auto now_ns = runtime::monotonic_ns();
-  while (const auto status = statuses_.take()) seen_ = status->header;
   pending_.push_back({.wanted = wanted, .answered = {}, .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
-  // A request that is sent later still names this status: the supervisor refuses it after a stop in between.
-  pending_.back().wanted.seen = seen_;
   pending_.back().answered.push_back(std::move(answered));
   advance(pending_.back(), now_ns);
 }

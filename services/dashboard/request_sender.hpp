@@ -22,7 +22,6 @@ class RequestSender {
   /// request.
   static constexpr std::size_t kMostWaiting = 16;
 
-  /// The request names the newest status of the time of this call.
   void send(const stack::OperatorRequest& wanted, Answered answered);
   /// Takes answers, repeats stops, and abandons requests that are not answered in time.
   void poll(std::int64_t now_ns);
@@ -41,8 +40,6 @@ class RequestSender {
   [[nodiscard]] Pending* same_stop(crane_RequestKind kind);
 
   stack::OperatorClient client_;
-  bus::Subscriber<msg::SupervisorStatus> statuses_;
-  msg::Header seen_{};  ///< header of the newest status; all zero: no status has arrived
   std::list<Pending> pending_;
 };
 

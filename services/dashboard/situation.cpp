@@ -1,5 +1,6 @@
 #include "dashboard/situation.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "crane/bridge/last_line.hpp"
@@ -64,10 +65,19 @@ void Situation::add(const observation::Sample& sample) {
   if (msg::SupervisorStatus status; decode(topics::supervisor, sample, status)) {
     supervisor_ = status;
     supervisor_ns_ = sample.arrival_time_ns;
+    statuses_.push_back({status.header, supervisor_ns_});
+    while (supervisor_ns_ - statuses_.front().arrival_ns > kSeen_ns) statuses_.pop_front();
   } else if (msg::State state; decode(topics::state, sample, state)) {
     state_ = state;
     state_ns_ = sample.arrival_time_ns;
   }
+}
+
+std::optional<msg::Header> Situation::status_of(std::uint64_t tick, std::int64_t now_ns) const {
+  const auto found = std::find_if(statuses_.rbegin(), statuses_.rend(),
+                                  [tick](const Arrived& arrived) { return arrived.header.tick == tick; });
+  if (found == statuses_.rend() || now_ns - found->arrival_ns > kSeen_ns) return std::nullopt;
+  return found->header;
 }
 
 ordered_json Situation::json(std::int64_t now_ns) const {

@@ -1,5 +1,6 @@
 #pragma once
 /// State of the crane, its cause and remedy, and the supervisor's answer to each possible request.
+#include <deque>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
@@ -16,12 +17,22 @@ class Situation {
   /// JSON of the situation. Two texts differ only when information for the operator differs.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
+  /// Age at which a status becomes invalid as the status that an operator has seen; as in the supervisor.
+  static constexpr std::int64_t kSeen_ns = 2'000'000'000;
+  /// @return header of the crane/supervisor of `tick`; nothing when none has arrived within kSeen_ns
+  [[nodiscard]] std::optional<msg::Header> status_of(std::uint64_t tick, std::int64_t now_ns) const;
+
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
   [[nodiscard]] const std::optional<msg::State>& state() const { return state_; }
 
  private:
   std::optional<msg::SupervisorStatus> supervisor_;
   std::optional<msg::State> state_;
+  struct Arrived {
+    msg::Header header;
+    std::int64_t arrival_ns;
+  };
+  std::deque<Arrived> statuses_;                   ///< of the last kSeen_ns, oldest first
   std::int64_t supervisor_ns_ = 0, state_ns_ = 0;  ///< monotonic arrival
 };
 

@@ -130,29 +130,6 @@ TEST_F(RequestSenderTest, WithKeysAllRepetitionsUseOneWriter) {
   EXPECT_EQ(std::set(writers.begin(), writers.end()).size(), 1U);
 }
 
-/// The supervisor refuses a request that names a status from before a stop.
-TEST(RequestSender, ARequestThatWaitsForASupervisorNamesTheStatusOfTheClick) {
-  const auto network = bus::make_memory_network();
-  bus::Bus supervisor{on(network, "supervisor", crane_SOURCE_SUPERVISOR)};
-  auto statuses = supervisor.publisher(topics::supervisor);
-  bus::Bus dashboard{on(network, "dashboard", crane_SOURCE_OPERATOR)};
-  RequestSender sender{dashboard};
-  const auto publish_tick = [&statuses](std::uint64_t tick) {
-    msg::SupervisorStatus status{};
-    status.header.tick = tick;
-    status.header.sample_time_ns = static_cast<std::int64_t>(tick) * 10'000'000;
-    ASSERT_TRUE(statuses.publish(status));
-  };
-  publish_tick(7);
-  sender.send({.kind = crane_REQUEST_RESET}, [](const Reply&) {});
-  publish_tick(8);
-  auto requests = supervisor.subscriber(topics::request);
-  sender.poll(runtime::monotonic_ns());
-  const auto request = requests.take();
-  ASSERT_TRUE(request);
-  EXPECT_EQ(request->header.tick, 7U);
-}
-
 TEST_F(RequestSenderTest, AnAnsweredRequestFreesItsPlaceAtOnce) {
   int accepted = 0;
   for (int i = 0; i < 1000; ++i) {

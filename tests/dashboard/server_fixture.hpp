@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../observation/samples.hpp"
+#include "crane/runtime/process.hpp"
 #include "dashboard/server.hpp"
 
 namespace crane::dashboard {
@@ -31,6 +33,7 @@ class ServerTest : public testing::Test {
                 std::move(rules),
                 [this](const stack::OperatorRequest& wanted, const Answered& answered) {
                   ++requests_;
+                  seen_ = wanted.seen;
                   answered({wanted.kind != crane_REQUEST_ARM,
                             wanted.kind == crane_REQUEST_ARM ? "not READY" : ""});
                 },
@@ -64,6 +67,7 @@ class ServerTest : public testing::Test {
     http::request<http::string_body> request{http::verb::post, target, 11, body.dump()};
     request.set(http::field::content_type, "application/json");
     request.set("X-Crane-Seat", seat);
+    if (!seen_tick_.empty()) request.set("X-Crane-Tick", seen_tick_);
     return exchange(request);
   }
   std::string metric(const std::string& name) {
@@ -106,8 +110,18 @@ class ServerTest : public testing::Test {
         json{{"op", "subscribe"}, {"subscriptions", {{{"id", channel}, {"channelId", channel}}}}}.dump()));
   }
 
+  /// The server receives the status of this tick; the clients state that they have seen it.
+  void hear_tick(std::uint64_t tick, std::int64_t age_ns = 0) {
+    server_.put({observation::status_at(runtime::monotonic_ns() - age_ns, crane_STATE_LOCKED,
+                                        crane_CAUSE_START, tick)});
+    seen_tick_ = std::to_string(tick);
+    while (json::parse(get("/api/tick").body())["tick"] != tick) std::this_thread::yield();
+  }
+
+  std::string seen_tick_;
   asio::io_context context_;
   std::atomic<int> requests_{0};
+  msg::Header seen_{};  ///< of the last request
   Server server_;
   std::jthread thread_{[this] { server_.run(); }};
 };

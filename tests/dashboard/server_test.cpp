@@ -35,6 +35,7 @@ TEST_F(ServerTest, APathOfRequestsAnswersAGetWithTheMethodThatItExpects) {
 }
 
 TEST_F(ServerTest, OneClientOperatesAndEveryClientMayStop) {
+  hear_tick(7);
   EXPECT_EQ(post("/api/request", {{"kind", "reset"}}).result_int(), 409U);
   const auto seat =
       json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
@@ -46,6 +47,28 @@ TEST_F(ServerTest, OneClientOperatesAndEveryClientMayStop) {
   EXPECT_EQ(requests_, 3);
   EXPECT_EQ(post("/api/operator/release", json::object(), seat).result_int(), 200U);
   EXPECT_EQ(post("/api/operator/take", {{"name", "Bob"}}).result_int(), 200U);
+}
+
+/// An interrupted connection holds a request back, and delivers it when it is restored.
+TEST_F(ServerTest, ARequestOfAnOperatorWhoHasNotSeenTheCraneFor2sIsRefused) {
+  const auto seat =
+      json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
+  const auto move = [&] {
+    return json::parse(post("/api/request", {{"kind", "move"}, {"trolley_m", 1}}, seat).body());
+  };
+  EXPECT_NE(move()["error"].get<std::string>().find("X-Crane-Tick"), std::string::npos);
+  hear_tick(7, 3 * kSecond_ns);
+  EXPECT_NE(move()["reason"].get<std::string>().find("within the last 2 s"), std::string::npos);
+  hear_tick(500, kSecond_ns);
+  hear_tick(600);
+  seen_tick_ = "500";
+  EXPECT_TRUE(move()["accepted"].get<bool>());
+  EXPECT_EQ(seen_.tick, 500U) << "the supervisor compares this tick with the last stop";
+  for (const char* tick : {"7", "601", "-1", "99999999999999999999999", "tick"}) {
+    seen_tick_ = tick;
+    EXPECT_FALSE(move().value("accepted", false)) << tick;
+  }
+  EXPECT_EQ(requests_, 1);
 }
 
 TEST_F(ServerTest, AForeignPageCannotOperate) {
