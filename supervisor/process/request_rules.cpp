@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "crane/fields/shortest.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/protection.hpp"
 #include "crane/runtime/convert.hpp"
@@ -13,6 +14,7 @@
 namespace crane::supervisor {
 namespace {
 
+using fields::shortest;
 using protection::enabled;
 using enum protection::Protection;
 
@@ -37,12 +39,12 @@ std::string target_problem(const msg::Request& request, const AxisLimits& axis, 
   const double wanted = runtime::values(request.target)[i];
   for (const double target : {wanted - excursion.distance, wanted + excursion.distance})
     if (!target_allowed(axis, target) && enabled(request_target))
-      return std::string{plant::kCoordinates[i].name} + " target " + std::to_string(target) +
-             " must lie in [" + std::to_string(axis.low_limit + axis.soft_margin) + ", " +
-             std::to_string(axis.high_limit - axis.soft_margin) + "]";
+      return std::string{plant::kCoordinates[i].name} + " target " + shortest(target) + " must lie in [" +
+             shortest(axis.low_limit + axis.soft_margin) + ", " +
+             shortest(axis.high_limit - axis.soft_margin) + "]";
   if (excursion.speed <= axis.max_speed) return "";
-  return std::string{plant::kCoordinates[i].name} + " speed " + std::to_string(excursion.speed) +
-         " of the sines must be at most " + std::to_string(axis.max_speed);
+  return std::string{plant::kCoordinates[i].name} + " speed " + shortest(excursion.speed) +
+         " of the sines must be at most " + shortest(axis.max_speed);
 }
 
 /// A sine above half the tick rate cannot be represented by the reference: it would jump from tick to tick.
@@ -50,7 +52,7 @@ std::string follow_problem(const msg::Request& request, const Limits& limits) {
   const double highest_hz = 0.5 / limits.period_s;
   if (!std::ranges::all_of(request.sine,
                            [&](const auto& sine) { return std::abs(sine.frequency_hz) <= highest_hz; }))
-    return "follow: frequency_hz must lie in [0, " + std::to_string(highest_hz) + "], half the tick rate";
+    return "follow: frequency_hz must lie in [0, " + shortest(highest_hz) + "], half the tick rate";
   if (!std::ranges::all_of(request.sine, [](const auto& sine) { return std::isfinite(sine.phase_rad); }))
     return "follow: phase_rad must be finite";
   const bool lasts = request.duration_s >= 0 && request.duration_s <= kLongestFollow_s;
@@ -65,9 +67,8 @@ std::string begin_problem(const msg::Request& request, const Limits& limits, con
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double distance = std::abs(target[i] - position[i]);
     if (!request.selected[i] || distance <= limits.largest_follow_jump[i]) continue;
-    return "follow: the reference begins " + std::to_string(distance) + " from the " +
-           plant::kCoordinates[i].name + ", at most " + std::to_string(limits.largest_follow_jump[i]) +
-           " is permitted: move there first";
+    return "follow: the reference begins " + shortest(distance) + " from the " + plant::kCoordinates[i].name +
+           ", at most " + shortest(limits.largest_follow_jump[i]) + " is permitted: move there first";
   }
   return "";
 }

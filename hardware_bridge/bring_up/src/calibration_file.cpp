@@ -1,9 +1,9 @@
-#include <charconv>
 #include <sstream>
 #include <tuple>
 
 #include "crane/bring_up/calibration.hpp"
 #include "crane/configuration/extended_file.hpp"
+#include "crane/fields/shortest.hpp"
 #include "crane/plant/coordinates.hpp"
 
 namespace crane::bring_up {
@@ -14,9 +14,7 @@ using configuration::ConfigurationError;
 
 /// Text of a number that gives the same floating-point number when it is read.
 std::string exact(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  std::string found{text.data(), end};
+  std::string found = fields::shortest(value);
   return found.find_first_of(".en") == std::string::npos ? found + ".0" : found;
 }
 

@@ -1,4 +1,5 @@
 #include "crane/configuration/realtime_period.hpp"
+#include "crane/fields/shortest.hpp"
 
 #include "section_reader.hpp"
 
@@ -7,8 +8,8 @@ namespace crane::configuration {
 void require_realtime_period(const Rig& rig) {
   // A period of exactly 1 ms in the rig file reads as the same number.
   if (rig.period_s >= kShortestRealtimePeriod_s) return;
-  throw ConfigurationError({rig.path + ": period_s = " + shortest_number(rig.period_s) +
-                            ": must be at least " + shortest_number(kShortestRealtimePeriod_s) +
+  throw ConfigurationError({rig.path + ": period_s = " + fields::shortest(rig.period_s) +
+                            ": must be at least " + fields::shortest(kShortestRealtimePeriod_s) +
                             " in real time (1 kHz); shorter periods are possible in lockstep"});
 }
 

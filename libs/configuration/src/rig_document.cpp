@@ -1,6 +1,7 @@
 #include "crane/configuration/rig_document.hpp"
 
 #include "crane/configuration/rig_fields.hpp"
+#include "crane/fields/shortest.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
@@ -41,10 +42,10 @@ struct FieldText {
     std::string range, preset;
   };
   Text operator()(double Section::*member) const {
-    return {field.range.interval(), shortest_number(initial.*member)};
+    return {field.range.interval(), fields::shortest(initial.*member)};
   }
   Text operator()(const Element<Section>& element) const {
-    return {field.range.interval(), shortest_number((initial.*element.array)[element.index])};
+    return {field.range.interval(), fields::shortest((initial.*element.array)[element.index])};
   }
   Text operator()(int Section::*member) const {
     return {std::to_string(static_cast<int>(field.range.low)) + ".." +

@@ -1,3 +1,4 @@
+#include "crane/fields/shortest.hpp"
 #include "rig_sections.hpp"
 
 namespace crane::configuration {
@@ -26,12 +27,12 @@ void check_resolution(TomlTable& table, const plant::Coordinate& coordinate, con
   if (!(encoder.counts_per_unit > 0)) return;  // reported already
   const auto key = key_in(kEncoderFields, "counts_per", coordinate);
   if (const double least = 1 / drive.brake_slip; encoder.counts_per_unit < least)
-    table.problem(key, "must be at least " + shortest_number(least) +
+    table.problem(key, "must be at least " + fields::shortest(least) +
                            ": one count must not exceed the permitted slip of the closed brake, " +
-                           shortest_number(drive.brake_slip) + " " + coordinate.unit);
+                           fields::shortest(drive.brake_slip) + " " + coordinate.unit);
   if (const double most = kHalfCounterRange_counts / (drive.max_speed * period_s);
       encoder.counts_per_unit >= most)
-    table.problem(key, "must be below " + shortest_number(most) +
+    table.problem(key, "must be below " + fields::shortest(most) +
                            ": at the largest speed, the counter must change by less than 2^23 counts in one "
                            "period");
 }

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "crane/configuration/extended_file.hpp"
+#include "crane/fields/shortest.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
@@ -10,7 +11,7 @@ namespace {
 
 /// @return the number with a fraction or an exponent; TOML would read any other text as a 64-bit integer
 std::string toml_of(double value) {
-  const auto text = shortest_number(value);
+  const auto text = fields::shortest(value);
   return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 std::string toml_of(int value) { return std::to_string(value); }

@@ -1,13 +1,6 @@
 #include "section_reader.hpp"
 
-#include <charconv>
-
 namespace crane::configuration {
-
-std::string shortest_number(double value) {
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
-}
 
 std::vector<std::string> board_names() {
   return {

@@ -7,8 +7,6 @@
 
 namespace crane::configuration {
 
-/// Shortest text that reads back as the same number.
-[[nodiscard]] std::string shortest_number(double value);
 [[nodiscard]] bool is_required(Presence presence, const Rig& rig);
 /// Reads an array of names of drives. @param drives  unchanged when the key is absent
 void read_axes(TomlTable& table, const std::string& key, std::array<bool, plant::kAxes>& drives);

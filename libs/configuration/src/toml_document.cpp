@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "crane/fields/shortest.hpp"
 #include "key_hint.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
 std::string written(const toml::node& node) {
-  if (const auto* value = node.as_floating_point()) return shortest_number(value->get());
+  if (const auto* value = node.as_floating_point()) return fields::shortest(value->get());
   if (const auto* value = node.as_integer()) return std::to_string(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
   if (const auto* value = node.as_string()) {

@@ -147,13 +147,6 @@ const std::vector<double>* Table::find(std::string_view name) const {
   return nullptr;
 }
 
-std::string shortest(double value) {
-  if (std::isnan(value)) return "nan";  // to_chars would write "-nan" for some NaN
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 void write_csv(std::ostream& out, const Table& table) {
   require_writable(table);
   std::string line;

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crane/fields/shortest.hpp"
 #include "crane/plant/coordinates.hpp"
 
 namespace crane::recording {
@@ -48,8 +49,8 @@ class CsvError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Shortest text that gives `value` when read: "0.01", "1e-07", "nan".
-[[nodiscard]] std::string shortest(double value);
+/// Text of each value in a file.
+using fields::shortest;
 
 /// @throws CsvError when columns differ in length, or when a name is empty, occurs twice or contains a comma,
 ///   a quote or a line end
