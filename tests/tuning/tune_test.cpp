@@ -2,34 +2,21 @@
 #include "tuning/tune.hpp"
 
 #include <gtest/gtest.h>
-#include <spdlog/spdlog.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "../recording/temporary_directory.hpp"
-#include "crane/files/complete_file.hpp"
-#include "crane/workers/process_pool.hpp"
-#include "experiments/lockstep_run.hpp"
 #include "hidden_rig.hpp"
-#include "stack/data_files.hpp"
+#include "tune_options.hpp"
 #include "tuning/lockstep_crane.hpp"
 
 namespace crane::tuning {
 namespace {
-
-TuneOptions options_for(const std::filesystem::path& directory) {
-  spdlog::set_level(spdlog::level::off);
-  TuneOptions options{.directory = directory, .processors = workers::processors()};
-  for (const char* name : stack::kManeuvers) options.maneuvers.push_back(stack::find_scenario(name));
-  return options;
-}
 
 /// An estimate may deviate by 4 standard errors, or by `tolerance`, which does not matter for a control law.
 struct Check {
@@ -138,82 +125,6 @@ Entry best_entry(const HiddenRig& hidden) {
   return best.entries.at(best.winner.value());
 }
 
-/// A crane that stops in the first motion.
-class StoppingCrane final : public CraneAccess {
- public:
-  [[nodiscard]] Motion execute(const configuration::Rig& /*rig*/,
-                               const experiment::Scenario& /*scenario*/) override {
-    throw experiments::RunError("no crane");
-  }
-};
-
-TEST(TuneFiles, OfAnEarlierTuningStayWhenANewOneFails) {
-  const recording::TemporaryDirectory directory;
-  std::filesystem::create_directories(directory / "out");
-  for (const char* name : {kRigFile, kPageFile})
-    recording::put_contents(directory / "out" / name, "of an earlier tuning");
-  StoppingCrane crane;
-  try {
-    (void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane,
-               options_for(directory / "out"));
-    FAIL() << "accepted";
-  } catch (const TuningRefused& refused) {
-    EXPECT_NE(std::string{refused.what()}.find("unchanged, of an earlier tuning: " +
-                                               (directory / "out" / kRigFile).string()),
-              std::string::npos)
-        << refused.what();
-  }
-  for (const char* name : {kRigFile, kPageFile})
-    EXPECT_EQ(recording::contents_of(directory / "out" / name), "of an earlier tuning");
-  EXPECT_TRUE(std::filesystem::exists(directory / "out" / kJsonFile));
-}
-
-/// A crane whose motion lacks the ticks 3 and 4, because the program that records it was suspended.
-class SuspendedCrane final : public CraneAccess {
- public:
-  [[nodiscard]] Motion execute(const configuration::Rig& /*rig*/,
-                               const experiment::Scenario& /*scenario*/) override {
-    return {{{{"tick", {1, 2, 5}}, {"time_s", {0.01, 0.02, 0.05}}}}, ""};
-  }
-};
-
-TEST(Tune, RefusesAProbeWithMissingTicks) {
-  const recording::TemporaryDirectory directory;
-  SuspendedCrane crane;
-  try {
-    (void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane,
-               options_for(directory / "out"));
-    FAIL() << "accepted";
-  } catch (const TuningRefused& refused) {
-    EXPECT_NE(std::string{refused.what()}.find("2 ticks are missing, the first after tick 2"),
-              std::string::npos)
-        << refused.what();
-  }
-}
-
-TEST(TuneFiles, NeverReplaceTheRigFileOrTheHiddenRig) {
-  const recording::TemporaryDirectory directory;
-  const auto file = directory / kRigFile;
-  const auto text = "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"\n";
-  recording::put_contents(file, text);
-  StoppingCrane crane;
-  auto options = options_for(directory / "");
-  EXPECT_THROW((void)tune(configuration::load_rig(file), crane, options), configuration::ConfigurationError);
-  options.inputs = {file};
-  EXPECT_THROW((void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane, options),
-               configuration::ConfigurationError);
-  EXPECT_EQ(recording::contents_of(file), text);
-}
-
-TEST(TuneFiles, ThatCannotBeWrittenAreRefusedBeforeAnyMotion) {
-  const recording::TemporaryDirectory directory;
-  std::filesystem::create_directories(directory / "out" / kRigFile);
-  StoppingCrane crane;  // a motion would end with TuningRefused
-  EXPECT_THROW((void)tune(configuration::load_rig(stack::find_rig("virginia_tech_tower")), crane,
-                          options_for(directory / "out")),
-               files::WriteError);
-}
-
 TEST(HiddenRigs, AGantryIsTunedAndSettlesAsPredicted) {
   const auto outcome = tune_hidden(hidden_rig(1));
   const auto& predicted = *outcome.winner().predicted;
@@ -290,80 +201,6 @@ TEST(Long, ALoadBelowAHookIsIdentified) {
   EXPECT_NEAR(found.load_mass_kg.value, hidden.load_mass_kg, 0.1 * hidden.load_mass_kg);
   const auto tuned = configuration::load_rig(directory / "out" / kRigFile);
   EXPECT_EQ(std::ranges::count(tuned.terms, "double_pendulum", &plant::TermSetting::name), 1);
-}
-
-std::string refusal_of(const configuration::Rig& known, const configuration::Rig& truth,
-                       const std::filesystem::path& directory) {
-  LockstepCrane crane{truth};
-  try {
-    (void)tune(known, crane, options_for(directory));
-  } catch (const TuningRefused& refused) {
-    return refused.what();
-  }
-  return "";
-}
-
-TEST(Tune, NamesAnEncoderWithTheWrongSign) {
-  for (const std::size_t counter : {plant::kTrolley, plant::kSlew}) {
-    const recording::TemporaryDirectory directory;
-    auto hidden = hidden_rig(2);
-    hidden.truth.encoders[counter].sign *= -1;
-    const auto refusal = refusal_of(hidden.known, hidden.truth, directory / "out");
-    const std::string name = counter == plant::kTrolley ? "trolley" : "slew";
-    EXPECT_NE(refusal.find("encoder." + name + ".sign"), std::string::npos) << refusal;
-    EXPECT_NE(refusal.find(kMotionFile), std::string::npos) << refusal;
-    EXPECT_TRUE(std::filesystem::exists(directory / "out" / kMotionFile));
-    EXPECT_FALSE(std::filesystem::exists(directory / "out" / kRigFile));
-    std::ifstream json{directory / "out" / kJsonFile};
-    EXPECT_FALSE(nlohmann::json::parse(json).at("refused").empty());
-  }
-}
-
-TEST(Tune, NamesASwingEncoderWithTheWrongSign) {
-  const recording::TemporaryDirectory directory;
-  auto hidden = hidden_rig(1);
-  hidden.truth.encoders[plant::kSwingRadial].sign *= -1;
-  const auto refusal = refusal_of(hidden.known, hidden.truth, directory / "out");
-  EXPECT_NE(refusal.find("encoder.swing_radial.sign"), std::string::npos) << refusal;
-}
-
-TEST(Tune, RefusesARigWithoutALoadOrWithUnknownPositions) {
-  const recording::TemporaryDirectory directory;
-  for (const char* name : {"drive_axis", "pendulum", "homing_servo_to_go"}) {
-    const auto rig = configuration::load_rig(stack::find_rig(name));
-    LockstepCrane crane{rig};
-    EXPECT_THROW((void)tune(rig, crane, options_for(directory / "out")), configuration::ConfigurationError)
-        << name;
-  }
-}
-
-TEST(Tune, RefusesARigOnWhichNoLawSettles) {
-  const recording::TemporaryDirectory directory;
-  const auto hidden = hidden_rig(1);
-  LockstepCrane crane{hidden.truth};
-  auto options = options_for(directory / "out");
-  options.candidates = {{.controller = "none", .gains = {}}};  // does not damp the swing
-  try {
-    (void)tune(hidden.known, crane, options);
-    FAIL();
-  } catch (const TuningRefused& refused) {
-    EXPECT_NE(std::string_view{refused.what()}.find("of 1 combinations"), std::string_view::npos)
-        << refused.what();
-  }
-  EXPECT_FALSE(std::filesystem::exists(directory / "out" / kRigFile));
-  std::ifstream json{directory / "out" / kJsonFile};
-  const auto content = nlohmann::json::parse(json);
-  EXPECT_FALSE(content.at("refused").empty());
-  EXPECT_EQ(content.at("ranking").size(), 1U);
-}
-
-TEST(Tune, RefusesAParameterOutsideThePriors) {
-  const recording::TemporaryDirectory directory;
-  auto hidden = hidden_rig(1);
-  hidden.truth.plant.load_mass_kg = 5 * hidden.known.plant.load_mass_kg;
-  const auto refusal = refusal_of(hidden.known, hidden.truth, directory / "out");
-  EXPECT_NE(refusal.find("load_mass"), std::string::npos) << refusal;
-  EXPECT_NE(refusal.find(kJsonFile), std::string::npos) << refusal;
 }
 
 }  // namespace
