@@ -91,41 +91,52 @@ double friction_v(const MachineModel::Friction& friction, double speed) noexcept
   return kFrictionRatioMax * (friction.rest_v + friction.viscous_v * std::abs(speed)) + kFrictionExtra_v;
 }
 
-/// Accelerations that the model permits between the oldest and the newest sample.
-/// @param with_load     acceleration of the model with the largest load, unit/s^2
-/// @param without_load  acceleration of the model without load, unit/s^2
-/// @param v             speed between the two newest samples, unit/s
-/// @param before        speed between the two oldest samples, unit/s
-Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& memory,
-                 const plant::State& state, double with_load, double without_load, double v,
-                 double before) noexcept {
+/// Motion of one axis over the last three samples.
+struct AxisMotion {
+  std::size_t axis;
+  double dt_s;           ///< time between the middles of both intervals
+  double speed, before;  ///< between the two newest samples, and between the two oldest, unit/s
+  double largest_v;      ///< largest absolute voltage of the last two ticks
+};
+
+AxisMotion motion_of(std::size_t axis, const FollowingMemory& memory) noexcept {
   const auto& [newest, middle, oldest] = memory.recent;
+  const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
+  return {.axis = axis,
+          .dt_s = (newer_s + older_s) / 2,
+          .speed = (newest.position[axis] - middle.position[axis]) / newer_s,
+          .before = (middle.position[axis] - oldest.position[axis]) / older_s,
+          .largest_v = std::max(std::abs(middle.applied_v[axis]), std::abs(oldest.applied_v[axis]))};
+}
+
+/// Accelerations that the model permits between the oldest and the newest sample.
+/// @param of_loads  accelerations of the model without friction, for all load masses
+Interval permitted(const Limits& limits, const AxisMotion& motion, const plant::State& state,
+                   const Interval& of_loads) noexcept {
+  const std::size_t i = motion.axis;
   const double gain = gain_of(limits, i, state);
-  const double volts_v = std::max(std::abs(middle.applied_v[i]), std::abs(oldest.applied_v[i]));
-  const double drag = i == 2 ? std::abs(v) / limits.machine.crane.hoist_lag_s : 0;
-  const double unknown = gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag +
+  const double drag = i == 2 ? std::abs(motion.speed) / limits.machine.crane.hoist_lag_s : 0;
+  const double unknown = gain * (kGainTolerance * motion.largest_v + kOffset_v) + kGainTolerance * drag +
                          unmeasured_load_acceleration(limits, i, state);
-  Interval found{std::min(with_load, without_load) - unknown, std::max(with_load, without_load) + unknown};
+  Interval found{of_loads.low - unknown, of_loads.high + unknown};
   // below this speed the friction can have either sign
   const double zero_speed = kSpeedShare * limits.axis[i].max_speed;
-  if (std::max(v, before) > -zero_speed)
-    found.low -= gain * friction_v(limits.machine.friction_positive[i], before);
-  if (std::min(v, before) < zero_speed)
-    found.high += gain * friction_v(limits.machine.friction_negative[i], before);
+  if (std::max(motion.speed, motion.before) > -zero_speed)
+    found.low -= gain * friction_v(limits.machine.friction_positive[i], motion.before);
+  if (std::min(motion.speed, motion.before) < zero_speed)
+    found.high += gain * friction_v(limits.machine.friction_negative[i], motion.before);
   return found;
 }
 
-bool judge_axis(const Limits& limits, std::size_t i, const plant::State& state, double with_load,
-                double without_load, FollowingMemory& memory) noexcept {
-  const auto& [newest, middle, oldest] = memory.recent;
-  const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
-  const double v = (newest.position[i] - middle.position[i]) / newer_s;
-  const double before = (middle.position[i] - oldest.position[i]) / older_s;
-  const double dt_s = (newer_s + older_s) / 2, dv = v - before;
-  const Interval permitted = allowed(limits, i, memory, state, with_load, without_load, v, before);
-  memory.above[i] = std::max(0.0, memory.above[i] + dv - permitted.high * dt_s);
-  memory.below[i] = std::max(0.0, memory.below[i] + permitted.low * dt_s - dv);
-  const double ratio = std::max(memory.above[i], memory.below[i]) / following_limit(limits, i, before, dt_s);
+/// Adds the change of speed outside the interval to the sums. @return true when a sum exceeds its limit
+bool judge_axis(const Limits& limits, const AxisMotion& motion, const Interval& interval,
+                FollowingMemory& memory) noexcept {
+  const std::size_t i = motion.axis;
+  const double dt_s = motion.dt_s, dv = motion.speed - motion.before;
+  memory.above[i] = std::max(0.0, memory.above[i] + dv - interval.high * dt_s);
+  memory.below[i] = std::max(0.0, memory.below[i] + interval.low * dt_s - dv);
+  const double ratio =
+      std::max(memory.above[i], memory.below[i]) / following_limit(limits, i, motion.before, dt_s);
   memory.largest[i] = std::max(memory.largest[i], ratio);
   return !(ratio <= 1);
 }
@@ -152,10 +163,13 @@ bool following_error(const Limits& limits, const FollowingInput& input, Followin
   const auto without_load = accelerations(limits, memory, state, 0);
   bool found = false;
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (limits.axis[i].present && memory.free_ticks[i] == kSettled_ticks)
-      found = judge_axis(limits, i, state, with_load[i], without_load[i], memory) || found;
-    else
+    if (!limits.axis[i].present || memory.free_ticks[i] != kSettled_ticks) {
       memory.above[i] = memory.below[i] = 0;
+      continue;
+    }
+    const AxisMotion motion = motion_of(i, memory);
+    const Interval of_loads{std::min(with_load[i], without_load[i]), std::max(with_load[i], without_load[i])};
+    found = judge_axis(limits, motion, permitted(limits, motion, state, of_loads), memory) || found;
   }
   return found;
 }
