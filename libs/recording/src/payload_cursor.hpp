@@ -12,8 +12,10 @@ namespace crane::recording {
 /// Plain CDR: every primitive is aligned to its size, relative to the end of the encapsulation header.
 class PayloadCursor {
  public:
-  PayloadCursor(std::string_view type, std::span<const std::uint8_t> payload) : type_{type} {
-    if (payload.size() < kEncapsulation_bytes || payload[0] != 0 || payload[1] > 1) fail("is not plain CDR");
+  /// @param place  type or member that is read; named in errors; may change, and must outlive this object
+  PayloadCursor(const std::string& place, std::span<const std::uint8_t> payload) : place_{place} {
+    if (payload.size() < kEncapsulation_bytes) fail("has no encapsulation header");
+    if (payload[0] != 0 || payload[1] > 1) fail("is not plain CDR");
     big_endian_ = payload[1] == 0;
     body_ = payload.subspan(kEncapsulation_bytes);
   }
@@ -42,19 +44,18 @@ class PayloadCursor {
       fail(std::to_string(body_.size() - at_) + " bytes remain after the last field");
   }
 
+  [[noreturn]] void fail(const std::string& what) const { throw DecodeError(place_ + ": " + what); }
+
  private:
   static constexpr std::size_t kEncapsulation_bytes = 4, kMostPadding_bytes = 3, kTextLength_bytes = 4;
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw DecodeError(std::string{type_} + ": " + what);
-  }
   void need(std::size_t bytes) const {
     if (at_ > body_.size() || bytes > body_.size() - at_)
       fail("ends after " + std::to_string(body_.size()) + " of at least " + std::to_string(at_ + bytes) +
            " bytes");
   }
 
-  std::string_view type_;
+  const std::string& place_;
   std::span<const std::uint8_t> body_;
   std::size_t at_ = 0;
   bool big_endian_ = false;

@@ -7,22 +7,18 @@
 #include "crane/fields/printable.hpp"
 #include "idl_tokens.hpp"
 #include "leaf_walk.hpp"
+#include "payload_cursor.hpp"
 
 namespace crane::recording {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Decodes plain CDR. Every primitive is aligned to its size, relative to the end of the encapsulation
-/// header.
+/// Decodes a sample to JSON.
 class Decoder {
  public:
-  Decoder(const Structure& type, std::span<const std::uint8_t> payload) : path_{type.name} {
-    if (payload.size() < 4) fail("has no encapsulation header");
-    if (payload[0] != 0 || payload[1] > 1) fail("is not plain CDR");
-    big_endian_ = payload[1] == 0;
-    body_ = payload.subspan(4);
-  }
+  Decoder(const Structure& type, std::span<const std::uint8_t> payload)
+      : path_{type.name}, cursor_{path_, payload} {}
 
   ordered_json structure(const Structure& type) {
     ordered_json object = ordered_json::object();
@@ -35,14 +31,9 @@ class Decoder {
     return object;
   }
 
-  void finish() const {
-    if (body_.size() - at_ > 3)
-      fail(std::to_string(body_.size() - at_) + " bytes remain after the last field");
-  }
+  void finish() const { cursor_.finish(); }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw DecodeError(path_ + ": " + what); }
-
   ordered_json array(const Field& field) {
     ordered_json list = ordered_json::array();
     for (std::uint32_t i = 0; i < field.count; ++i) {
@@ -85,57 +76,40 @@ class Decoder {
       case Kind::structure:
         return structure(*field.structure);
     }
-    fail("has an unknown kind");
-  }
-
-  std::span<const std::uint8_t> take(std::size_t size) {
-    if (size > body_.size() - at_)
-      fail("ends after " + std::to_string(body_.size()) + " of at least " + std::to_string(at_ + size) +
-           " bytes");
-    const auto bytes = body_.subspan(at_, size);
-    at_ += size;
-    return bytes;
+    cursor_.fail("has an unknown kind");
   }
 
   template <class T>
   T number() {
-    at_ = std::min((at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T), body_.size());
-    const auto bytes = take(sizeof(T));
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i)
-      value |= static_cast<std::uint64_t>(bytes[big_endian_ ? sizeof(T) - 1 - i : i]) << (8 * i);
-    return static_cast<T>(value);
+    return static_cast<T>(cursor_.raw(sizeof(T)));
   }
 
   bool boolean() {
     const auto byte = number<std::uint8_t>();
-    if (byte > 1) fail("is " + std::to_string(byte) + ", a boolean is 0 or 1");
+    if (byte > 1) cursor_.fail("is " + std::to_string(byte) + ", a boolean is 0 or 1");
     return byte == 1;
   }
 
   std::string enumerator(const Enumeration& type) {
     const auto index = number<std::uint32_t>();
     if (index >= type.values.size())
-      fail("is " + std::to_string(index) + ", which " + type.name + " does not have");
+      cursor_.fail("is " + std::to_string(index) + ", which " + type.name + " does not have");
     return type.values[index];
   }
 
   std::string text(std::uint32_t max_length) {
-    const auto size = number<std::uint32_t>();
-    const auto bytes = take(size);
-    if (bytes.empty() || bytes.back() != 0) fail("is not terminated");
+    const auto bytes = cursor_.text();
+    if (!bytes.ends_with('\0')) cursor_.fail("is not terminated");
     std::string value(bytes.begin(), bytes.end() - 1);
     if (max_length > 0 && value.size() > max_length)
-      fail("has " + std::to_string(value.size()) + " characters, at most " + std::to_string(max_length) +
-           " are allowed");
+      cursor_.fail("has " + std::to_string(value.size()) + " characters, at most " +
+                   std::to_string(max_length) + " are allowed");
     fields::make_printable(value);  // the file may come from any program
     return value;
   }
 
-  std::string path_;
-  std::span<const std::uint8_t> body_;
-  std::size_t at_ = 0;
-  bool big_endian_ = false;
+  std::string path_;  ///< of the member that is read
+  PayloadCursor cursor_;
 };
 
 void flatten_into(const ordered_json& value, const std::string& name, std::vector<Leaf>& leaves) {
