@@ -5,24 +5,22 @@
 
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
-#include "crane/analysis/rule_agreement.hpp"
 #include "crane/configuration/rig.hpp"
+#include "crane/control/fuzzy.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
 namespace {
 
-constexpr std::array kLabels{"NB", "NM", "NS", "ZO", "PS", "PM", "PB"};
-
-std::string label_text(control::FuzzyLabel label) { return kLabels.at(static_cast<std::size_t>(label + 3)); }
+std::string label_text(control::FuzzyLabel label) { return std::string{control::label_name(label)}; }
 
 /// Prints a rule table; rows: swing, columns: swing rate. A star marks a difference from `reference`.
 void print_rules(const control::FuzzyRules& marked, const control::FuzzyRules& reference) {
   std::vector<std::string> header{"phi \\ phi'"};
-  header.insert(header.end(), kLabels.begin(), kLabels.end());
+  for (control::FuzzyLabel label = -3; label <= 3; ++label) header.push_back(label_text(label));
   TextTable table{header};
   for (std::size_t i = 0; i < marked.size(); ++i) {
-    std::vector<std::string> row{kLabels[i]};
+    std::vector<std::string> row{header[i + 1]};
     for (std::size_t j = 0; j < marked[i].size(); ++j)
       row.push_back(label_text(marked[i][j]) + (marked[i][j] == reference[i][j] ? "" : "*"));
     table.add(row);
@@ -42,12 +40,13 @@ nlohmann::ordered_json rules_json(const control::FuzzyRules& rules) {
 
 int analyse_fuzzy(const std::string& rig, bool as_json) {
   const auto design = configuration::load_rig(stack::find_rig(rig)).design;
-  const auto generated = control::rules_from(control::delayed_1_response(design)).rules;
-  const auto agreement = analysis::agreement(generated, control::kPrintedRules);
+  const auto generated = control::rules_from(control::delayed_1_response(design));
+  const auto agreement = control::agreement(generated);
+  constexpr auto kRules = control::kFuzzyLabels * control::kFuzzyLabels;
   if (as_json) {
     const nlohmann::ordered_json json{{"printed", rules_json(control::kPrintedRules)},
-                                      {"generated", rules_json(generated)},
-                                      {"rules", agreement.rules},
+                                      {"generated", rules_json(generated.rules)},
+                                      {"rules", kRules},
                                       {"exact", agreement.exact},
                                       {"within_one_label", agreement.within_one}};
     std::cout << json.dump(2) << '\n';
@@ -57,9 +56,9 @@ int analyse_fuzzy(const std::string& rig, bool as_json) {
   print_rules(control::kPrintedRules, control::kPrintedRules);
   std::cout << "\nGenerated after Wang and Mendel from the response of delayed_1; *: differs from the "
                "printed table\n";
-  print_rules(generated, control::kPrintedRules);
-  std::cout << "\nOf " << agreement.rules << " rules " << agreement.exact << " are equal, "
-            << agreement.within_one << " differ by at most one label.\n";
+  print_rules(generated.rules, control::kPrintedRules);
+  std::cout << "\nOf " << kRules << " rules " << agreement.exact << " are equal, " << agreement.within_one
+            << " differ by at most one label.\n";
   return runtime::kExitDone;
 }
 
