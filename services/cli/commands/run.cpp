@@ -6,15 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "cli/commands/commands.hpp"
 #include "cli/plant_option.hpp"
-#include "crane/configuration/extended_file.hpp"
-#include "crane/configuration/output_files.hpp"
+#include "cli/run_plans.hpp"
 #include "crane/experiment/variant.hpp"
 #include "crane/files/complete_file.hpp"
 #include "crane/twin/component.hpp"
@@ -27,91 +24,6 @@
 
 namespace crane::cli {
 namespace {
-
-using Names = std::vector<std::string>;
-
-struct RunOptions {
-  Names scenarios, controllers, variants;
-  std::string rig, integrator = "cvode", out = "out", clock = "lockstep";
-  stack::Plant plant = stack::Plant::simulated;
-  bool compare = false, in_process = false, json = false, no_picture = false;
-  runtime::BusOptions bus;
-  Names vendors;
-  bool twin = false;
-  std::string twin_rig;
-};
-
-Names first_given(const Names& by_user, const Names& by_scenario, const Names& otherwise) {
-  return !by_user.empty() ? by_user : !by_scenario.empty() ? by_scenario : otherwise;
-}
-
-Names every_controller() {
-  Names names;
-  for (const auto& controller : control::controllers()) names.emplace_back(controller.name);
-  return names;
-}
-
-/// Loads the rig of one scenario and adds its runs to `plans`.
-void add_plans(const std::string& name, const RunOptions& options,
-               std::vector<experiments::PlannedRun>& plans) {
-  const auto file = stack::find_scenario(name);
-  const auto defaults = experiment::load_scenario(file);
-  const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty()    ? options.rig
-                                                           : !defaults.rig.empty() ? defaults.rig
-                                                                                   : stack::kDefaultRig));
-  const auto scenario = experiment::load_scenario(file, &rig);
-  const Names as_it_is{""};
-  const auto variants = first_given(options.variants, defaults.variants,
-                                    options.compare ? experiment::default_variants() : as_it_is);
-  const auto controllers =
-      first_given(options.controllers, defaults.controllers, options.compare ? every_controller() : as_it_is);
-  for (const auto& variant : variants) {
-    (void)experiment::changed_by(rig, variant);  // reports unknown variants before the first run
-    for (const auto& controller : controllers)
-      plans.push_back({scenario, rig, &runtime::chosen_controller(controller, rig), variant,
-                       simulator::method_named(options.integrator)});
-  }
-}
-
-std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
-  std::vector<experiments::PlannedRun> plans;
-  if (options.scenarios.empty() && !options.compare)
-    throw configuration::ConfigurationError(
-        {"scenario: give at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
-  const Names maneuvers(stack::kManeuvers.begin(), stack::kManeuvers.end());
-  for (const auto& name : options.scenarios.empty() ? maneuvers : options.scenarios)
-    add_plans(name, options, plans);
-  return plans;
-}
-
-/// Name of the output directory: scenario, controller unless it is the default, variant if any.
-std::string directory_name(const RunOptions& options, const experiments::PlannedRun& plan) {
-  const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
-  return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
-         (plan.variant.empty() ? "" : "_" + plan.variant);
-}
-
-/// @throws configuration::ConfigurationError when two runs would write to one directory
-void require_own_directories(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
-  std::vector<std::string> problems;
-  std::map<std::string, std::string> scenarios;
-  for (const auto& plan : plans) {
-    const auto [other, first] = scenarios.try_emplace(directory_name(options, plan), plan.scenario.path);
-    if (!first)
-      problems.push_back(plan.scenario.path + ": its run would overwrite that of " + other->second + " in " +
-                         (std::filesystem::path{options.out} / other->first).string() +
-                         "; run them with different --out");
-  }
-  if (!problems.empty()) throw configuration::ConfigurationError(problems);
-}
-
-/// @throws configuration::ConfigurationError when one of `outputs` is a rig file or a scenario of `plans`
-void require_other(const std::vector<std::filesystem::path>& outputs,
-                   const std::vector<experiments::PlannedRun>& plans) {
-  std::set<std::filesystem::path> inputs;
-  for (const auto& plan : plans) inputs.insert({plan.rig.path, plan.scenario.path});
-  configuration::require_other(outputs, configuration::with_base_files({inputs.begin(), inputs.end()}));
-}
 
 int run_each(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   experiments::ExperimentOptions experiment;
