@@ -112,7 +112,10 @@ class RemoteOperator : private NearHost, public ServerTest {
           attack(socket);
           held.push_back(std::move(socket));
           if (held.size() > kHeld) held.pop_front();
-          if (round == kHeld) ++prepared_;
+          if (round == kHeld) {
+            ++prepared_;
+            prepared_.notify_one();
+          }
         } catch (const boost::system::system_error&) {  // refused or closed, as expected
         }
     });
@@ -123,7 +126,12 @@ class RemoteOperator : private NearHost, public ServerTest {
       hosts.add_far(address);
       attack([this, address] { return connect_from(address); }, how);
     }
-    while (prepared_ < attackers_.size()) std::this_thread::sleep_for(10ms);
+    wait_until_prepared();
+  }
+  /// Waits until every attacker holds its connections.
+  void wait_until_prepared() {
+    for (auto prepared = prepared_.load(); prepared < attackers_.size(); prepared = prepared_)
+      prepared_.wait(prepared);
   }
   void end_attacks() {
     stop_ = true;
@@ -174,7 +182,7 @@ TEST_F(RemoteOperator, IsServedWhileOtherComputersDoNotReadTheirAnswers) {
 
 TEST_F(RemoteOperator, IsServedWhileProgramsOfThisComputerGuessTheToken) {
   for (int i = 0; i < 4; ++i) attack([this] { return connect(); }, guess);
-  while (prepared_ < attackers_.size()) std::this_thread::sleep_for(10ms);
+  wait_until_prepared();
   expect_operator_served();
 }
 
