@@ -5,7 +5,7 @@
 
 #include "experiment/next_experiment.hpp"
 #include "noise/whitening.hpp"
-#include "study/study.hpp"
+#include "study/hypothesis.hpp"
 
 namespace crane::diagnosis {
 

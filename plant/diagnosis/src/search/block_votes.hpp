@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "study/study.hpp"
+#include "study/hypothesis.hpp"
 
 namespace crane::diagnosis {
 

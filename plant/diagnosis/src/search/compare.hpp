@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crane/diagnosis/diagnosis.hpp"
-#include "study/study.hpp"
+#include "study/hypothesis.hpp"
 
 namespace crane::diagnosis {
 

@@ -2,7 +2,8 @@
 /// Which hypotheses a search fits: those that may become the best one.
 #include <vector>
 
-#include "study/study.hpp"
+#include "study/hypothesis.hpp"
+#include "study/score.hpp"
 
 namespace crane::diagnosis {
 

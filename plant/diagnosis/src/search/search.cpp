@@ -9,6 +9,7 @@
 #include "search/initial_values.hpp"
 #include "search/parts.hpp"
 #include "search/prospects.hpp"
+#include "search/score_tests.hpp"
 #include "search/selection.hpp"
 
 namespace crane::diagnosis {
@@ -26,13 +27,6 @@ constexpr std::size_t kPaired = 3;
 /// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
 
-/// Score test beside a hypothesis, which its deviance identifies.
-struct Scored {
-  Effects effects;
-  Blocks deviance;
-  ScoreTable table;
-};
-
 Effects and_one(Effects effects, const Candidate* candidate) {
   effects.push_back({candidate, {}});
   return effects;
@@ -48,7 +42,7 @@ class Search {
     request_.progress(0.05, "scores of all candidates");
     // The fitted inaccuracies absorb a part of a missing effect. A fit of this effect beside them then finds
     // too small a value. Effects are therefore also fitted beside the unchanged values of the rig file.
-    record_detection(scores_of(found_.base));
+    record_detection(score_tests_.beside(found_.base));
     if (!study_.uncalibrated().inaccuracies.empty()) extend(base_in(study_.uncalibrated()), kFirst);
     extend(found_.base, kFirst);
     Hypotheses& found = found_;
@@ -176,7 +170,7 @@ class Search {
                 double needed = 0) {
     const Fitted there = given;  // `all` grows
     study_.whiten_training(there.nuisance);
-    ScoreTable scores = scores_of(there);
+    ScoreTable scores = score_tests_.beside(there);
     const std::vector<const Candidate*> ringing = initial_values_.add_of_lines(there, request_.seed, scores);
     always.insert(always.end(), ringing.begin(), ringing.end());
     if (!there.effects.empty() && scores.p_value > rules::kSignificant) {
@@ -206,19 +200,6 @@ class Search {
     found_.detection_p_value = scores.p_value;
     found_.excitation = scores.excitation;
     for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
-  }
-
-  /// Scores beside a hypothesis. @pre the study is whitened with its nuisance parameters
-  const ScoreTable& scores_of(const Fitted& given) {
-    const auto known = std::ranges::find_if(scored_, [&](const Scored& scored) {
-      return same(scored.effects, given.effects) && scored.deviance == given.deviance;
-    });
-    if (known != scored_.end()) return known->table;
-    const std::uint64_t seed = request_.seed + given.effects.size();
-    return scored_
-        .emplace_back(given.effects, given.deviance,
-                      study_.score(given.effects, given.train, seed, probe_slopes_))
-        .table;
   }
 
   /// Fits only those of the strongest candidates that may make `given` as likely as `best`.
@@ -302,8 +283,7 @@ class Search {
   Study& study_;
   const Request& request_;
   Hypotheses found_;
-  std::vector<Scored> scored_;
-  ProbeSlopes probe_slopes_;
+  ScoreTests score_tests_{study_, request_.seed};
   std::vector<Fitted> tried_;  ///< first fits that have not been refitted
   InitialValues initial_values_{study_};
   std::map<std::size_t, double> p_value_;  ///< of every candidate alone

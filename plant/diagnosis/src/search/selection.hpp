@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "study/study.hpp"
+#include "study/score.hpp"
 
 namespace crane::diagnosis {
 

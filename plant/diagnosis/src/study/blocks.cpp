@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "parallel.hpp"
 
@@ -147,8 +146,6 @@ Blocks log_variances_of(const Problem& problem) {
         blocks[at.block] += problem.log_variance(at.window, static_cast<std::size_t>(row));
   return blocks;
 }
-
-double sum(const Blocks& blocks) { return std::accumulate(blocks.begin(), blocks.end(), 0.0); }
 
 Blocks blocks_of(const Problem& problem, const Fits& fits) {
   const BlockRowsOf rows = block_rows_of(problem);

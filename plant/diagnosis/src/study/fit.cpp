@@ -126,8 +126,6 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 }  // namespace
 
-bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
-
 bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   const double enough =

@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <random>
 #include <span>
 
 #include "force/position_spectrum.hpp"
@@ -13,66 +10,25 @@
 #include "replay/travel.hpp"
 #include "study/blocks.hpp"
 #include "study/design.hpp"
+#include "study/min_p.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kSignFlips = 999;
 constexpr std::size_t kWaves = 4;
 constexpr std::size_t kStartShapes = 3;
 constexpr std::array kStartShares{1.0, 0.4};
-
-double chi_square_p(double statistic, Index freedom) {
-  return !(statistic > 0) ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
-}
-
-/// Directions of one candidate in one shape by block, with the directions of the known effects projected out.
-struct Directions {
-  MatrixXd by_block, curvature;
-  bool one_sided = false;
-
-  /// The directions B = by_block as (B'B)^(-1/2) B', up to a rotation: the sum of squares of their sums over
-  /// the blocks is chi-square. The first one has the sign of the first direction.
-  [[nodiscard]] MatrixXd standardised() const {
-    MatrixXd products = by_block.transpose() * by_block;
-    products.diagonal() += 1e-9 * products.diagonal() + VectorXd::Constant(products.rows(), 1e-12);
-    return products.llt().matrixL().solve(by_block.transpose());
-  }
-};
-
-/// Statistic by column; 0 for directions that are not finite. @param sums  of standardised directions, over
-/// the blocks
-Eigen::RowVectorXd statistics(const MatrixXd& sums, bool one_sided) {
-  Eigen::RowVectorXd all = sums.colwise().squaredNorm();
-  if (one_sided) all = (sums.row(0).array() > 0).select(all, 0.0);
-  return (all.array() > 0).select(all, 0.0);
-}
-
-/// The last `fresh` directions of `both`, with all earlier directions projected out.
-Directions beside_known(const BlockScores& both, Index fresh) {
-  const Index old = both.curvature.cols() - fresh;
-  Directions d{both.by_block.rightCols(fresh), both.curvature.bottomRightCorner(fresh, fresh)};
-  if (old == 0) return d;
-  const MatrixXd cross = both.curvature.topRightCorner(old, fresh);
-  MatrixXd share(old, fresh);
-  for (Index j = 0; j < fresh; ++j)
-    share.col(j) = solve(both.curvature.topLeftCorner(old, old), cross.col(j));
-  d.by_block -= both.by_block.leftCols(old) * share;
-  d.curvature -= cross.transpose() * share;
-  return d;
-}
 
 void judge(const Directions& d, Score& score) {
   const VectorXd total = d.by_block.colwise().sum().transpose();
   const VectorXd amounts = solve(d.curvature, total);
   score.amounts.assign(amounts.data(), amounts.data() + amounts.size());
   score.gain = d.one_sided && total[0] <= 0 ? 0 : std::max(0.0, total.dot(amounts));
-  score.statistic = statistics(d.standardised().rowwise().sum(), d.one_sided)[0];
-  score.p_value = chi_square_p(score.statistic, d.by_block.cols());
+  score.statistic = statistic_of(d);
+  score.p_value = p_value_of(d, score.statistic);
 }
 
 const VectorXd& residual_of(const WindowFit& fit) { return fit.residual; }
@@ -85,30 +41,6 @@ double gain_of(const Parts& parts, const std::vector<VectorXd>& change) {
   for (std::size_t w = 0; w < change.size(); ++w)
     gain += loss_of(residual_of(parts[w])) - loss_of(residual_of(parts[w]) - change[w]);
   return gain;
-}
-
-/// p value of the smallest p value `least`: share of random sign flips of the blocks, counting the data as
-/// one of them, in which the smallest p value is at most `least`.
-double p_value_of_smallest(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const Index blocks = directions.empty() ? 0 : directions[0].by_block.rows();
-  MatrixXd signs(blocks, kSignFlips);
-  for (Index f = 0; f < signs.cols(); ++f)
-    for (Index b = 0; b < blocks; ++b) signs(b, f) = (random() & 1U) != 0U ? 1.0 : -1.0;
-  // For each number of directions, the largest statistic has the smallest p value.
-  std::map<Index, Eigen::RowVectorXd> largest;
-  for (const Directions& d : directions) {
-    const Eigen::RowVectorXd of_flips = statistics(d.standardised() * signs, d.one_sided);
-    Eigen::RowVectorXd& most =
-        largest.try_emplace(d.by_block.cols(), Eigen::RowVectorXd::Zero(of_flips.size())).first->second;
-    most = most.cwiseMax(of_flips);
-  }
-  std::size_t as_small = 1;
-  for (Index f = 0; f < signs.cols(); ++f)
-    as_small += std::ranges::any_of(largest, [&](const auto& of_freedom) {
-      return chi_square_p(of_freedom.second[f], of_freedom.first) <= least;
-    });
-  return static_cast<double>(as_small) / (kSignFlips + 1);
 }
 
 /// The shapes with the largest predicted gain, either only those with a large probe or only those without.

@@ -73,31 +73,12 @@ Fits fit_of(const Problem& problem, const Replays& crane) {
 
 }  // namespace
 
-Effects moved(Effects effects, const VectorXd& step) {
-  Index i = 0;
-  for (Effect& effect : effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
-      const FreeParameter& p = effect.candidate->parameters[k];
-      effect.values[k] = std::clamp(effect.values[k] + step[i], p.low, p.high);
-    }
-  return effects;
-}
-
 double difference_step(const FreeParameter& p, double value) {
   constexpr double kShare = 0.3;
   const double step = kShare * p.step;
   if (value + step <= p.high) return step;
   if (value - step >= p.low) return -step;
   return p.high - value > value - p.low ? p.high - value : p.low - value;
-}
-
-ShowsIn shown_in(const Effects& effects) {
-  ShowsIn parts;
-  for (const Effect& effect : effects) {
-    parts.drive = parts.drive || effect.candidate->drive;
-    parts.load = parts.load || effect.candidate->load;
-  }
-  return parts;
 }
 
 Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,

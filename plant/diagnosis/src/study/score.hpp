@@ -1,0 +1,30 @@
+#pragma once
+/// Results of the score test.
+#include <cstddef>
+#include <vector>
+
+#include "crane/diagnosis/candidate.hpp"
+#include "crane/diagnosis/diagnosis.hpp"
+
+namespace crane::diagnosis {
+
+/// Score test of one candidate in one shape.
+struct Score {
+  std::size_t candidate = 0;
+  Shape shape;
+  double statistic = 0;  ///< chi-square of the block-robust score
+  double p_value = 1;    ///< of this candidate alone
+  double gain = 0;       ///< predicted decrease of the loss; < 0 when the shape increases it
+  double share = 0;      ///< gain / loss of the parts in which the candidate is visible
+  std::vector<double> amounts;
+  std::vector<std::vector<double>> starts;  ///< initial values for a fit
+};
+
+struct ScoreTable {
+  /// Best shape of every candidate, in the order of the candidates.
+  std::vector<Score> best;
+  std::vector<Visibility> excitation;  ///< of each effect in these data; only for the base model
+  double p_value = 1;                  ///< of the most significant candidate, by flipping signs of blocks
+};
+
+}  // namespace crane::diagnosis
