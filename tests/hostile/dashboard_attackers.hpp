@@ -126,11 +126,12 @@ class Attackers {
   }
   /// Sends ten requests whose headers never end.
   void trickle() {
+    constexpr auto kPause = 100ms;  // between two bytes of a header
     std::vector<tcp::socket> slow;
     for (int i = 0; i < 10; ++i) slow.push_back(connected());
     for (int i = 0; i < 20 && !stop_; ++i) {
       for (auto& socket : slow) asio::write(socket, asio::buffer("GET / HTTP/1.1\r\nX: ", i == 0 ? 19 : 1));
-      std::this_thread::sleep_for(100ms);
+      std::this_thread::sleep_for(kPause);
     }
   }
   void ping() {
