@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "crane/configuration/extended_file.hpp"
+#include "crane/control/cable_tolerance.hpp"
 #include "crane/experiment/variant.hpp"
 #include "crane/fields/angle.hpp"
 #include "crane/plant/coordinates.hpp"
@@ -245,8 +246,7 @@ Rig started_by(Rig rig, const Scenario& scenario) {
   rig.start.cable_length_offset_m += scenario.cable_length_offset_m;
   // The check of the swing encoders would stop a crane with a larger error of the cable length: switches the
   // model checks off.
-  constexpr double kPlausible = 0.55;  // kCableTolerance of crane/supervisor/pendulum.hpp
-  if (std::abs(scenario.cable_length_offset_m) > kPlausible * rig.start.position[plant::kHoist])
+  if (std::abs(scenario.cable_length_offset_m) > control::kCableTolerance * rig.start.position[plant::kHoist])
     rig.limits.model_checks = false;
   rig.plant.load_mass_kg = scenario.load_mass_kg.value_or(rig.plant.load_mass_kg);
   return rig;

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "crane/plant/parameters.hpp"
 #include "crane/topics.hpp"
 
 namespace crane::campaign {
 
-inline constexpr std::size_t kAxes = 3;
-using PerAxis = std::array<double, kAxes>;
+using plant::kAxes, plant::PerAxis;
 using AxisFlags = std::array<bool, kAxes>;
 
 /// True state of the rig.

@@ -27,14 +27,15 @@
 /// An error below kZeroError_rad + wind / g is not detected: 46 mrad with the default wind of 0.25 m/s2.
 /// False alarms: none within the tolerances; average run length above 1e9 ticks for a white disturbance of
 /// the same size (tests/supervisor/model_checks_test.cpp).
+#include "crane/control/cable_tolerance.hpp"
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
 
+using control::kCableTolerance;
+
 /// samples of the mean; it divides the quantisation of the swing rate by 4
 inline constexpr std::size_t kMeanSamples = 4;
-/// relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1
-inline constexpr double kCableTolerance = 0.55;
 inline constexpr double kZeroError_rad = 0.02;     ///< zero error of a swing encoder
 inline constexpr double kDampingRatio = 0.05;      ///< damping ratio of air, bearing and cable
 inline constexpr double kPermittedSum_mps = 0.05;  ///< permitted sum without quantisation

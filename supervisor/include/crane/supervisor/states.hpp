@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "crane/plant/parameters.hpp"
+
 namespace crane::supervisor {
 
-inline constexpr std::size_t kAxes = 3;  ///< 0 trolley (m), 1 slew (rad), 2 hoist (m of cable)
-using PerAxis = std::array<double, kAxes>;
+using plant::kAxes;  ///< 0 trolley (m), 1 slew (rad), 2 hoist (m of cable)
+using plant::PerAxis;
 using AxisFlags = std::array<bool, kAxes>;
 
 enum class State : std::uint8_t {
