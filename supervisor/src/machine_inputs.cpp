@@ -66,8 +66,7 @@ EnvelopeInput measured_now(const Limits& limits, const TickInput& input, const T
           .unknown = unknown_axes(limits, memory)};
 }
 
-Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
-                      const GateOutput& gated, bool brakes_failed, bool relay_stuck,
+Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks& checks,
                       const TickMemory& memory) {
   const Sample& sample = memory.sample;
   const std::size_t unhomed = first_of(unknown_axes(limits, memory));
@@ -76,10 +75,14 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .now_s = input.now_s,
       .self_test = input.self_test,
       .state_stale = !memory.motion.started || memory.state_missing_in_row >= limits.state_stale_after_ticks,
-      .demand_stale = gated.stale,
-      .gate_cause = gated.cause,
+      .demand_stale = checks.gated.stale,
+      .gate_cause = checks.gated.cause,
       .measured = measured_now(limits, input, memory),
-      .envelope = envelope,
+      .envelope = checks.envelope,
+      .following_error = checks.following_error,
+      .swing_sensor_failed = checks.swing_sensor_failed,
+      .zone_ahead = checks.zone.ahead,
+      .zone_touched = checks.zone.touched,
       .estop_pressed = sample.estop_pressed,
       .bridge_latched = sample.command_stale || sample.command_invalid,
       .watchdog_dropped = sample.watchdog_dropped,
@@ -91,12 +94,12 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .doubtful_axis = unclear % kAxes,
       .swing_zero_doubtful = memory.restart.swing_zero_doubtful,
       .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
-      .brake_failed = brakes_failed || input.brake_open_without_command,
-      .relay_failed = relay_stuck,
+      .brake_failed = checks.brakes_failed || input.brake_open_without_command,
+      .relay_failed = checks.relay_stuck,
       .relay_closed = !memory.relay_permitted && !sample.watchdog_dropped,
       .moved_while_arming =
           memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
-      .demand_near_zero = gated.near_zero,
+      .demand_near_zero = checks.gated.near_zero,
       .brakes_open = every_brake_open(limits, memory),
       .brakes_closed = every_brake_closed(limits, memory),
       .standstill = standstill(limits, input.now_s, memory.motion),

@@ -1,6 +1,7 @@
 #pragma once
 /// Inputs of the state machine: sample, gate and checks of one tick.
 #include "crane/supervisor/supervisor.hpp"
+#include "crane/supervisor/zone_filter.hpp"
 
 namespace crane::supervisor {
 
@@ -13,11 +14,19 @@ namespace crane::supervisor {
 [[nodiscard]] EnvelopeInput measured_now(const Limits& limits, const TickInput& input,
                                          const TickMemory& memory);
 
-/// @param brakes_failed  a closed brake does not hold its axis, or does not report closed
-/// @param relay_stuck    the watchdog relay stays closed without permission
-/// @return inputs without the results of the model checks and of the zone filter
-[[nodiscard]] Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
-                                    const GateOutput& gated, bool brakes_failed, bool relay_stuck,
+/// Results of all checks of one tick. No member has a default value, so that a tick without one of the checks
+/// does not compile.
+struct Checks {
+  const Envelope& envelope;
+  const GateOutput& gated;
+  const ZoneVerdict& zone;
+  bool brakes_failed;        ///< a closed brake does not hold its axis, or does not report closed
+  bool relay_stuck;          ///< the watchdog relay stays closed without permission
+  bool following_error;      ///< see following.hpp
+  bool swing_sensor_failed;  ///< see pendulum.hpp
+};
+
+[[nodiscard]] Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks& checks,
                                     const TickMemory& memory);
 
 }  // namespace crane::supervisor

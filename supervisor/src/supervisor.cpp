@@ -128,11 +128,17 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   GateOutput gated = run_gate(limits, input, envelope, memory);
   const ZoneVerdict zone = guard_zones(limits, sampled, gated, memory);
   const double creeping_speed = creep(limits, memory);
-  Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, relay_stuck, memory);
-  inputs.following_error = following_error_now(limits, sampled, memory);
-  inputs.swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
-  inputs.zone_ahead = zone.ahead;
-  inputs.zone_touched = zone.touched;
+  const bool following_error = following_error_now(limits, sampled, memory);
+  const bool swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
+  const Inputs inputs = machine_inputs(limits, input,
+                                       {.envelope = envelope,
+                                        .gated = gated,
+                                        .zone = zone,
+                                        .brakes_failed = brakes_failed,
+                                        .relay_stuck = relay_stuck,
+                                        .following_error = following_error,
+                                        .swing_sensor_failed = swing_sensor_failed},
+                                       memory);
 
   const bool was_ramping = memory.machine.ramping && memory.machine.state == State::stop_c1;
   const bool was_releasing = memory.machine.releasing;
