@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/supervisor/modes.hpp"
+
 namespace crane::cli {
 
 double arc_rad(double step_m, double trolley_position_m) {
-  constexpr double kShortestRadius_m = 0.1;  // the angle stays finite at radius 0
-  return step_m / std::max(std::abs(trolley_position_m), kShortestRadius_m);
+  return step_m / std::max(std::abs(trolley_position_m), supervisor::kShortestRadius_m);
 }
 
 AxisTargets inched(const std::array<double, 3>& reference, const InchingStep& step, double step_m) {

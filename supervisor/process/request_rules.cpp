@@ -106,7 +106,6 @@ std::string path_problem(const Limits& limits, const control::Path& path) {
 /// @return true when an axis of the request would move farther than kShortStep_m
 bool is_long(const msg::Request& request, const PerAxis& position) {
   constexpr std::size_t kSlew = 1;
-  constexpr double kShortestRadius_m = 0.1;  // as for the inching steps of `crane jog`
   const PerAxis target = runtime::values(request.target);
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double arm = i == kSlew ? std::max(std::abs(position[0]), kShortestRadius_m) : 1;

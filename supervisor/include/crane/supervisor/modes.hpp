@@ -20,8 +20,10 @@ enum class Moves : std::uint8_t {
 };
 
 /// Longest move of Moves::short_steps, m: an inching step of 20 mm plus a position error of 10 mm at rest.
-/// Slew axis: m of arc at the present radius of the trolley; a radius below 0.1 m counts as 0.1 m.
+/// Slew axis: m of arc at the present radius of the trolley, at least kShortestRadius_m.
 inline constexpr double kShortStep_m = 0.03;
+/// At radius 0, a step of the slew axis would have no finite angle.
+inline constexpr double kShortestRadius_m = 0.1;
 
 struct ModeRule {
   const char* name;     ///< of the command line: "semi_automatic"
