@@ -1,6 +1,7 @@
 #pragma once
 /// Selects the samples that the black box keeps: around every stop, fault and trip, from 10 s before the
-/// first cause to 5 s after the last note. Overlapping incidents are one incident. Pure; bounded memory.
+/// first cause to 5 s after the last note. Overlapping incidents are one incident. No I/O and no
+/// clock; bounded memory.
 #include <limits>
 #include <optional>
 #include <string>

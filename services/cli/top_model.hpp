@@ -1,5 +1,6 @@
 #pragma once
-/// Content of `crane top`: traffic, state of the supervisor, faults, largest swing. Pure.
+/// Content of `crane top`: traffic, state of the supervisor, faults, largest swing. No I/O; the time is an
+/// argument.
 #include <deque>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 /// Limits the number of connections and the bytes of unread answers, and shares the connections between the
-/// clients. Pure: no sockets.
+/// clients. No sockets and no clock.
 #include <compare>
 #include <cstdint>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
 /// The protocol foxglove.websocket.v1 of viewers (Foxglove, Lichtblick, PlotJuggler) and of the dashboard's
-/// own page. Pure: texts and bytes.
+/// own page. No sockets: texts and bytes only.
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>

@@ -1,5 +1,6 @@
 #pragma once
-/// Limits the amount (tokens, bytes) per client within kRateWindow. Pure: the time is an argument.
+/// Limits the amount (tokens, bytes) per client within kRateWindow. No I/O; the time is an
+/// argument.
 #include <chrono>
 #include <cstddef>
 #include <deque>

@@ -1,5 +1,5 @@
 #pragma once
-/// Parses the body of POST /api/request. Pure.
+/// Parses the body of POST /api/request.
 #include <stdexcept>
 #include <string_view>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Messages that wait to be sent to one client; drops samples when the client is slow. Pure: no sockets.
+/// Messages that wait to be sent to one client; drops samples when the client is slow. No sockets and
+/// no clock.
 #include <cstdint>
 #include <deque>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 /// Captures the rows around a trigger, like an oscilloscope. The trigger is the row in which a condition
-/// becomes true. Pure.
+/// becomes true. No I/O and no clock.
 #include <deque>
 #include <optional>
 #include <vector>

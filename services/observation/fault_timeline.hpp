@@ -1,5 +1,6 @@
 #pragma once
-/// Faults in the order of time: the first cause of each stop, and its consequences. Pure.
+/// Faults in the order of time: the first cause of each stop, and its consequences. No I/O; the time is
+/// an argument.
 ///
 /// A note is a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
 /// or the silence of a process. Notes less than kQuiet_ns apart belong to one fault; the earliest note is the

@@ -1,6 +1,6 @@
 #pragma once
 /// Finds the fields of the topics by name ("state.swing_radial_rad"). The IDL text of this program or of a
-/// recording defines the fields and their units. Pure.
+/// recording defines the fields and their units. No I/O and no clock.
 #include <optional>
 #include <string>
 #include <string_view>

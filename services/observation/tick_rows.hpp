@@ -1,5 +1,6 @@
 #pragma once
-/// Joins the samples of several topics to rows: one row per tick of crane/state. Pure.
+/// Joins the samples of several topics to rows: one row per tick of crane/state. No I/O and no
+/// clock.
 ///
 /// A loop topic contributes the fields of the row's tick; if its sample is missing, the fields are NaN. Any
 /// other topic contributes its newest values. A row is complete when the samples of all selected loop topics

@@ -1,6 +1,7 @@
 #pragma once
 /// Times at which the supervisor steps in real time although inputs are missing. In lockstep, every step has
-/// all inputs. In a replay, the recording states the steps: the host polls the supervisor without a state.
+/// all inputs. In a replay, the recording states the steps: the runner polls the supervisor without a
+/// state.
 #include <cstdint>
 
 #include "crane/runtime/component.hpp"

@@ -1,4 +1,4 @@
-/// Scenarios with whole stacks in lockstep: equal bytes for every host and vendor, and the figures of the
+/// Scenarios with whole stacks in lockstep: equal bytes for every runner and vendor, and the figures of the
 /// three maneuvers of the dissertation.
 #include <gtest/gtest.h>
 

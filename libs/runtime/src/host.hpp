@@ -1,5 +1,5 @@
 #pragma once
-/// Shared by the programs that host components: real-time scheduling, the log, and the exit codes of main().
+/// Shared by the programs that run components: real-time scheduling, the log, and the exit codes of main().
 #include <functional>
 #include <string>
 

@@ -2,7 +2,8 @@
 /// Determines the zeros of the encoders during homing. The position of an axis with Zero::homing is unknown
 /// until its mark has been detected twice: first in the search, then at the approach speed after the axis has
 /// backed off. The second detection determines the position. The counter is set after the brake has closed,
-/// so that no position jumps while a drive is active. Pure. The supervisor moves the axis.
+/// so that no position jumps while a drive is active. No I/O and no clock. The
+/// supervisor moves the axis.
 #include <array>
 #include <cstdint>
 #include <optional>

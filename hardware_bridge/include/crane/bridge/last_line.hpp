@@ -1,7 +1,7 @@
 #pragma once
 /// Last check of every command before it reaches the drives ("last line of defence"). The check needs no
 /// other process: invalid commands, missing commands and unexpected motion of the rig all lead to a safe
-/// output. Pure; called once per tick.
+/// output. No I/O and no clock; called once per tick.
 ///
 /// At every tick without a latch, the checks run in the order of last_line_checks(). The first failed check
 /// is latched as reason: the drives get 0 V, the brakes lose their supply, and the watchdog output stops

@@ -3,7 +3,7 @@
 /// the writer has sent quiet commands for kQuiet_s: 0 V, closed brakes, no homing, no watchdog permission. A
 /// supervisor sends quiet commands for longer (self-test, then 1 s without a cause before a reset). A program
 /// that commands motion at once moves nothing, even when no supervisor runs. Discovery reports a
-/// second writer within the quiet time. Pure.
+/// second writer within the quiet time. No I/O and no clock.
 #include <cstdint>
 #include <optional>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The command gate: every demand passes the gate before it reaches a drive. Order of the checks: finite,
-/// range, rate, age, stopping envelope.
+/// The command gate: every demand passes the gate before it reaches a drive. Order of the
+/// stages: finite, range, rate, age, stopping envelope (docs/safety.md#the-gate-and-the-stopping-distance).
 #include "crane/supervisor/envelope.hpp"
 
 namespace crane::supervisor {

@@ -1,5 +1,6 @@
 #pragma once
-/// One tick of the supervisor: a pure function of limits, inputs and memory that returns command and status.
+/// One tick of the supervisor: a deterministic function of limits, inputs and memory that returns command
+/// and status. No I/O; step() changes nothing but the memory.
 /// process/samples.hpp converts from and to the topics.
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"

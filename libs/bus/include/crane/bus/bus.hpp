@@ -1,6 +1,7 @@
 #pragma once
 /// Publishers and subscribers over Cyclone DDS, Fast DDS or an in-process network. The sample type of a topic
-/// is the C struct that idlc generates. Only src/cyclone, src/fastdds and cdr*.cpp include vendor headers.
+/// is the C struct that idlc generates. The generated crane.h includes the type descriptors of Cyclone DDS
+/// (dds_public_impl.h). Only src/cyclone, src/fastdds and cdr*.cpp include other vendor headers.
 ///
 ///   bus::Bus bus{options};
 ///   auto states = bus.subscriber(topics::state);

@@ -1,7 +1,7 @@
 #pragma once
 /// Online adaptation: estimates the friction of trolley and slew axis, the payload, the length of the
 /// pendulum and the swing offset while the crane moves, and sets the levels of the friction compensation. The
-/// host calls step() once per tick. No allocation, no exception, no clock. Equations and thresholds:
+/// caller calls step() once per tick. No allocation, no exception, no clock. Equations and thresholds:
 /// docs/adaptation.md.
 #include <cstdint>
 #include <memory>

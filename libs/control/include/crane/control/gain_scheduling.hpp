@@ -15,8 +15,7 @@
 /// Partial-state feedback (3.19) has no K_phi'. The condition K_phi' = 0 determines w/w0 and therefore K.
 /// Full-state feedback has a free K; forward_gains() lowers K for long moves, so that the first command stays
 /// within the voltage limit of the drive. The slew axis has the same form with K_m / (1 + M_r x^2) for K_m,
-/// m_r x^2 / (1
-/// + M_r x^2) for m_t, and swing gains divided by x.
+/// m_r x^2 / (1 + M_r x^2) for m_t, and swing gains divided by x.
 #include <array>
 #include <memory>
 

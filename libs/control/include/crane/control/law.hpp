@@ -1,6 +1,6 @@
 #pragma once
-/// Interface, inputs and outputs of a control law. A law uses no DDS, no clock and no files. The host calls
-/// step() once per tick; the period is constant.
+/// Interface, inputs and outputs of a control law. A law uses no DDS, no clock and no files. The component
+/// of the law calls step() once per tick; the period is constant.
 /// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003.
 /// Signs: docs/equations.md#coordinates-and-signs.
 #include <array>

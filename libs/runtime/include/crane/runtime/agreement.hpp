@@ -3,7 +3,8 @@
 /// calibration, zones and gains depend on each other. Each sample of the loop states the configuration of its
 /// process. A process that reads another configuration, or 0, states 0: the supervisor detects a difference
 /// anywhere in the loop. Only the writer of a loop topic can state the configuration of its process. Statuses
-/// on crane/node have no effect, because every process may write this topic.
+/// on crane/node have no effect, because every process except operator tools and monitors may write
+/// this topic.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace crane::runtime {
 
-/// Compares the configurations of the inputs of one process with its own. Pure.
+/// Compares the configurations of the inputs of one process with its own. No I/O.
 template <std::size_t kInputs>
 class Agreement {
  public:

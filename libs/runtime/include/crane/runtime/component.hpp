@@ -1,6 +1,6 @@
 #pragma once
 /// A component is one part of the control loop, for example the tracking law. It has named inputs and
-/// outputs, internal state, and one step per tick. Two hosts run the same component: a separate process over
+/// outputs, internal state, and one step per tick. Two runners execute a component: a separate process over
 /// DDS (process.hpp), or one process that runs all components of a stack, over the memory bus or over DDS
 /// (in_process.hpp). A component never blocks or sleeps. For control it reads no clock: time is an argument.
 #include <cstdint>
@@ -22,12 +22,12 @@ class Component {
  public:
   virtual ~Component() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Processes the samples that have arrived. @return true when poll() has processed something; the host then
-  /// calls poll() again before it waits
+  /// Processes the samples that have arrived. @return true when poll() has processed something; the runner
+  /// then calls poll() again before it waits
   virtual bool poll(std::int64_t now_ns) = 0;
   /// Time of the next poll() that is due without a new sample; kNever: only new samples need a poll().
   [[nodiscard]] virtual std::int64_t wake_at_ns() const { return kNever; }
-  /// True for a clock master: its host sleeps until wake_at_ns(), and samples do not wake the host.
+  /// True for a clock master: its runner sleeps until wake_at_ns(), and samples do not wake the runner.
   [[nodiscard]] virtual bool paced() const { return false; }
   /// Names the missing inputs, for the message when a lockstep run makes no progress.
   [[nodiscard]] virtual std::string waiting_for() const = 0;

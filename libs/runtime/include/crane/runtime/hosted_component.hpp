@@ -1,5 +1,5 @@
 #pragma once
-/// A component with its node and its ports. Both hosts use it.
+/// A component with its node and its ports. Both runners (component.hpp) use it.
 #include <memory>
 
 #include "crane/runtime/component.hpp"

@@ -9,7 +9,7 @@
 
 namespace crane::runtime {
 
-/// Program that hosts the whole loop of the simulated plant.
+/// Program that runs the whole loop of the simulated plant.
 inline constexpr std::string_view kLoopProgram = "crane_loop";
 
 /// main() of the program. An error in one component ends or corrupts all components, including the supervisor

@@ -16,7 +16,7 @@ enum class Clock : std::uint8_t {
   realtime,  ///< the clock master follows CLOCK_MONOTONIC; a late process loses the tick
   lockstep,  ///< the plant starts tick k+1 after command k; no process can be late, and runs are reproducible
              ///< bit for bit
-  prescribed  ///< a replay of a run in real time: the host delivers the samples that the process had. The
+  prescribed  ///< a replay of a run in real time: the runner delivers the samples that the process had. The
               ///< second poll() after a state finishes its tick without the missing inputs; a poll() without
               ///< a state, later than the last step, is a step of the supervisor without a state
 };

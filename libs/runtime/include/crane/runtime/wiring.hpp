@@ -1,7 +1,7 @@
 #pragma once
 /// The wiring of a stack as data: every component declares the topics that it reads and writes, with the
-/// purpose of each. The host permits only these endpoints (ports.hpp). The start-up check, the check for a
-/// second writer, `crane graph` and the tables in the documents use the same declarations.
+/// purpose of each. The runner permits only these endpoints (ports.hpp). The start-up check, the check for
+/// a second writer, `crane graph` and the tables in the documents use the same declarations.
 #include <algorithm>
 #include <memory>
 #include <string_view>

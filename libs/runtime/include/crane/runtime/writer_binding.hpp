@@ -1,5 +1,6 @@
 #pragma once
-/// Binds a reader of a loop topic to one writer. Pure; time and the matched writers are arguments.
+/// Binds a reader of a loop topic to one writer. No I/O and no clock; time and the matched writers are
+/// arguments.
 ///
 /// The first writer whose kind of process may write the topic is bound, provided that it is the only writer.
 /// A sample from another DDS writer, or with another source or start-up number in its header, is foreign: the

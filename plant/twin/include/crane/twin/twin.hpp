@@ -1,6 +1,6 @@
 #pragma once
 /// The live twin: a model of the crane with the same input voltages, tick by tick. It predicts the sensor
-/// values, tests the residual, and reports a deviation with its likely cause. Pure: no clock, bus or files.
+/// values, tests the residual, and reports a deviation with its likely cause. No clock, bus or files.
 #include <cstdint>
 #include <optional>
 #include <string>
