@@ -28,7 +28,7 @@ double gain_of(const Limits& limits, std::size_t axis) noexcept {
   return (1 + kGainTolerance) * (axis == kTrolley ? crane.trolley_gain_mps2pv : crane.slew_gain_radps2pv);
 }
 
-/// Step 1 of zone_filter.hpp. @param load_acceleration  by load, centrifugal and Coriolis force, unit/s^2
+/// Step 1 of docs/zones.md. @param load_acceleration  by load, centrifugal and Coriolis force, unit/s^2
 StopTravel stop_travel(const Limits& limits, std::size_t axis, const ZoneInput& input,
                        const ZoneMemory& memory, double load_acceleration) noexcept {
   if (!limits.axis[axis].present) return {};
@@ -93,7 +93,7 @@ double load_speed_mps(const Limits& limits, const ZoneMemory& memory, const Load
   return speed + counts_m / span_s + unmodelled * span_s / 2;
 }
 
-/// Step 2 of zone_filter.hpp.
+/// Step 2 of docs/zones.md.
 StopRegion stop_region(double trolley_m, double slew_rad, const StopTravel& trolley,
                        const StopTravel& slew) noexcept {
   const double near_m = trolley_m - trolley.down, far_m = trolley_m + trolley.up;
@@ -107,7 +107,7 @@ StopRegion stop_region(double trolley_m, double slew_rad, const StopTravel& trol
   return region;
 }
 
-/// A: step 3 of zone_filter.hpp.
+/// A: step 3 of docs/zones.md.
 double swing_of_stop_m(const Limits& limits, const ZoneMemory& memory, const RampedStop& stop) noexcept {
   const auto& [load, trolley, slew, region, unused] = stop;
   const PastSample& now = memory.recent[0];

@@ -1,6 +1,6 @@
 #pragma once
 /// Bounds of the motion during a ramped stop that begins in the next tick. Steps and symbols are those of
-/// crane/supervisor/zone_filter.hpp.
+/// docs/zones.md#the-filter.
 #include <algorithm>
 #include <cmath>
 

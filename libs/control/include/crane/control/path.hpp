@@ -1,24 +1,10 @@
 #pragma once
 /// Search for the path of a move around the no-go zones. A path is a sequence of legs; a leg is straight in
-/// the coordinates of the axes. Pure. Supervisor and planner call path_to() with the same data.
-/// docs/zones.md#paths-around-zones.
+/// the coordinates of the axes. Supervisor and planner call path_to() with the same data.
+/// docs/zones.md#paths-around-zones describes the search and proves its rules.
 ///
 /// The clearance of a position is the distance between a load that rests there (resting_reach) and the
 /// closest zone. A position is free when its clearance is at least kPassGap_m.
-///
-/// Cable length. A position that is free is also free with a shorter cable, because the space of the resting
-/// load shrinks on all sides and its lower end rises. Therefore a free path in three coordinates stays free
-/// when all its cable lengths are replaced by the shortest one: a search over trolley and slew with the
-/// shortest cable decides whether a path exists. Raising the load at the start and lowering the load at the
-/// target are also free.
-///
-/// Legs. Along a leg the clearance changes by at most the distance d over the ground. Therefore a sample with
-/// the clearance c proves that the leg is free for the next c - kPassGap_m (conservative advancement).
-///
-/// Search: A* (P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Syst. Sci. Cybern. 4 (1968) 100) over a
-/// grid of trolley and slew. The cost is the time; a smaller clearance permits less speed
-/// (passing_speed_mps). The path on the grid has many short legs: the shortest path in the graph of all free
-/// legs between its nodes replaces it.
 #include <array>
 #include <cstddef>
 #include <cstdint>
