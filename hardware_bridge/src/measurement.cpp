@@ -14,13 +14,13 @@ std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
   return counts_ += change;
 }
 
-Coordinate::Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
+Coordinate::Coordinate(const configuration::Encoder& encoder, double period_s, double cutoff_ratio,
                        bool filter_position, std::int64_t start)
     : unwrapper_{start},
       units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
       rest_{encoder.rest_angle_rad},
       filter_position_{filter_position},
-      low_pass_{control::butterworth_low_pass(cut_off_ratio)},
+      low_pass_{control::butterworth_low_pass(cutoff_ratio)},
       differentiator_{control::al_alaoui_second_order(1 / period_s)} {}
 
 void Coordinate::filter(double position) noexcept {

@@ -20,7 +20,7 @@ double Evidence::tolerance_v(double applied_v, double speed) const {
   const auto& friction = rig.design.friction[axis_];
   const double rest_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                   friction.stiction_positive_v, friction.stiction_negative_v});
-  const double viscous_v = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
+  const double viscous_vs_per_unit = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
   const auto& truth = bench_->now().truth;
   double load_v = 0;
   const double weight_n = kMost * rig.plant.load_mass_kg * rig.plant.gravity_mps2;
@@ -30,8 +30,8 @@ double Evidence::tolerance_v(double applied_v, double speed) const {
     load_v = weight_n * std::sin(std::abs(truth.swing_tangential_rad)) * truth.position[0] /
              rig.plant.jib_inertia_kgm2 / gain();
   if (axis_ == 2) load_v = kGain * std::abs(speed) / rig.plant.hoist_gain_mpspv;
-  return kGain * std::abs(applied_v) + kOffset_v + kMost * (rest_v + viscous_v * std::abs(speed)) + kExtra_v +
-         load_v;
+  return kGain * std::abs(applied_v) + kOffset_v + kMost * (rest_v + viscous_vs_per_unit * std::abs(speed)) +
+         kExtra_v + load_v;
 }
 
 double Evidence::visible_speed(double speed) const {

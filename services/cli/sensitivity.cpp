@@ -120,8 +120,8 @@ std::vector<std::string> distinct(std::span<const PerturbedRun> runs, Field fiel
 
 }  // namespace
 
-double filter_delay_s(double cut_off_ratio, double period_s) {
-  return std::numbers::sqrt2 / (2 * std::numbers::pi * cut_off_ratio) * period_s;
+double filter_delay_s(double cutoff_ratio, double period_s) {
+  return std::numbers::sqrt2 / (2 * std::numbers::pi * cutoff_ratio) * period_s;
 }
 
 std::vector<Perturbation> perturbations(const PlannedRun& plan) {

@@ -18,9 +18,9 @@ struct Perturbation {
   std::function<void(experiments::PlannedRun&)> change;  ///< changes scenario and rig before the start
 };
 
-/// Low-frequency delay of the second-order Butterworth filter, sqrt(2) / (2 pi cut-off). @pre cut_off_ratio >
-/// 0
-[[nodiscard]] double filter_delay_s(double cut_off_ratio, double period_s);
+/// Low-frequency delay of the second-order Butterworth filter, sqrt(2) / (2 pi cut-off).
+/// @pre cutoff_ratio > 0
+[[nodiscard]] double filter_delay_s(double cutoff_ratio, double period_s);
 
 /// Perturbations that apply to the controller of the plan; the first one is the nominal run:
 ///   cable_length, load_mass        true value, -50 to 50 % relative to the nominal value

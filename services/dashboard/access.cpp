@@ -66,7 +66,7 @@ std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
                : "from another computer this dashboard is read-only: start it with --operator-token FILE";
   if (visitor.token_ignored) return "too many wrong tokens from this computer: try again in a second";
   if (visitor.token.empty()) return "the operator token is needed";
-  return guesses(rules, visitor) ? "the operator token is wrong" : "";
+  return sends_wrong_token(rules, visitor) ? "the operator token is wrong" : "";
 }
 
 std::string why_not_stop(const AccessRules& rules, const Visitor& visitor) {
@@ -76,7 +76,7 @@ std::string why_not_stop(const AccessRules& rules, const Visitor& visitor) {
   return why_not_operate(without_token, visitor);
 }
 
-bool guesses(const AccessRules& rules, const Visitor& visitor) {
+bool sends_wrong_token(const AccessRules& rules, const Visitor& visitor) {
   return !rules.token.empty() && !visitor.token.empty() &&
          !equal_in_constant_time(rules.token, visitor.token);
 }

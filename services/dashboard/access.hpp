@@ -1,5 +1,5 @@
 #pragma once
-/// Access rules: decide from the headers of a request whether its sender may watch and may operate. Pure.
+/// Access rules: decide from the headers of a request whether its sender may watch and may operate.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +40,7 @@ struct AccessRules {
 /// As why_not_operate(), for a stop: this computer may request a stop without the token.
 [[nodiscard]] std::string why_not_stop(const AccessRules& rules, const Visitor& visitor);
 /// True when the visitor sends a wrong token.
-[[nodiscard]] bool guesses(const AccessRules& rules, const Visitor& visitor);
+[[nodiscard]] bool sends_wrong_token(const AccessRules& rules, const Visitor& visitor);
 
 /// Compares in constant time, so that the duration does not reveal where the texts differ.
 [[nodiscard]] bool equal_in_constant_time(std::string_view a, std::string_view b);

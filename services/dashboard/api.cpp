@@ -74,7 +74,7 @@ Api::Api(Model& model, const AccessRules& rules,
          std::function<ServerCounts()> counts, const RunsOptions& runs)
     : model_{model}, rules_{rules}, send_{std::move(send)}, counts_{std::move(counts)}, runs_{runs} {}
 
-void Api::handle(const ApiRequest& request, Answer answer) {
+void Api::handle(const ApiRequest& request, AnswerHandler answer) {
   try {
     if (!may_look(rules_, request.visitor))
       answer(problem_answer(403, "this dashboard answers its own pages only: open it by its address"));
@@ -159,7 +159,7 @@ ApiAnswer Api::history(std::string_view query) const {
   return answer;
 }
 
-void Api::post(const ApiRequest& request, Answer answer) {
+void Api::post(const ApiRequest& request, AnswerHandler answer) {
   // A form of a foreign page can send text/plain, but cannot send these types without a preflight request.
   const std::string wanted = request.target.starts_with(kUploadPath) ? "application/octet-stream" : kJsonType;
   if (!has_type(request, wanted))
@@ -194,7 +194,7 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
   return json_answer({{"seat", key}});
 }
 
-void Api::request(const ApiRequest& request, Answer answer) {
+void Api::request(const ApiRequest& request, AnswerHandler answer) {
   auto wanted = operator_request_of(request.body);
   const auto reply_with = [answer](const Reply& reply) {
     answer(json_answer({{"accepted", reply.accepted}, {"reason", reply.reason}}));

@@ -12,7 +12,7 @@
 
 namespace crane::dashboard {
 
-using Answer = std::function<void(ApiAnswer)>;
+using AnswerHandler = std::function<void(ApiAnswer)>;
 
 class Api {
  public:
@@ -22,7 +22,7 @@ class Api {
       const RunsOptions& runs);
 
   /// Calls `answer` exactly once: immediately, or when the supervisor has answered.
-  void handle(const ApiRequest& request, Answer answer);
+  void handle(const ApiRequest& request, AnswerHandler answer);
   /// True for a stop that this visitor may request without a token or with a wrong token.
   [[nodiscard]] bool is_permitted_stop(const ApiRequest& request) const;
   /// Starts waiting jobs and collects finished ones.
@@ -30,12 +30,12 @@ class Api {
 
  private:
   [[nodiscard]] ApiAnswer get(const ApiRequest& request);
-  void post(const ApiRequest& request, Answer answer);
+  void post(const ApiRequest& request, AnswerHandler answer);
   [[nodiscard]] ApiAnswer tick() const;
   [[nodiscard]] ApiAnswer about(const Visitor& visitor) const;
   [[nodiscard]] ApiAnswer history(std::string_view query) const;
   [[nodiscard]] ApiAnswer take_seat(const ApiRequest& request);
-  void request(const ApiRequest& request, Answer answer);
+  void request(const ApiRequest& request, AnswerHandler answer);
 
   Model& model_;
   const AccessRules& rules_;

@@ -72,9 +72,9 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     token_ignored_ = token_wrong_ = false;
     if (!admission_ || !parser_->is_header_done() || visitor().token.empty()) return;
     const auto now = std::chrono::steady_clock::now();
-    token_ignored_ = !server_.guesses().permits(admission_->client(), now);
-    token_wrong_ = !token_ignored_ && guesses(server_.rules(), visitor());
-    if (token_wrong_) server_.guesses().count(admission_->client(), now);
+    token_ignored_ = !server_.guess_limit().permits(admission_->client(), now);
+    token_wrong_ = !token_ignored_ && sends_wrong_token(server_.rules(), visitor());
+    if (token_wrong_) server_.guess_limit().count(admission_->client(), now);
   }
 
   void read_body() {
@@ -128,7 +128,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
 
   void upgrade() {
     if (!may_look(server_.rules(), visitor())) {
-      server_.refuse();
+      server_.count_refused_request();
       return refuse(403, "this dashboard answers its own pages only; --allow-origin permits others");
     }
     if (!admission_) return;  // displaced
@@ -160,8 +160,8 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
         api_request(), [self = shared_from_this(), head = request.method() == http::verb::head,
                         keep = request.keep_alive(), history, now](ApiAnswer answer) {
           if (history && self->admission_)
-            self->server_.histories().count(self->admission_->client(), now, answer.body.size());
-          if (answer.status == 403) self->server_.refuse();
+            self->server_.history_limit().count(self->admission_->client(), now, answer.body.size());
+          if (answer.status == 403) self->server_.count_refused_request();
           self->send(std::move(answer), keep, head);
         });
   }
@@ -169,7 +169,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
   /// Answers a wrong token after kGuessDelay, for every request, so that the attacker learns nothing before.
   void answer_guess() {
     stream_.expires_never();
-    server_.refuse();
+    server_.count_refused_request();
     guess_.expires_after(kGuessDelay);
     guess_.async_wait(
         [self = shared_from_this()](error_code) { self->refuse(403, "the operator token is wrong"); });

@@ -92,7 +92,7 @@ void Server::welcome(tcp::socket socket) {
   auto client = client_of(socket);
   if (!limits_->has_place(client, Kind::connection) && !displace_for(client, Kind::connection)) return;
   auto admission = std::make_unique<Admission>(limits_, client);
-  std::erase_if(displaceable_, [](const Displaced& entry) { return entry.session.expired(); });
+  std::erase_if(displaceable_, [](const DisplaceableConnection& entry) { return entry.session.expired(); });
   displaceable_.push_back({start_http_session(std::move(socket), *this, std::move(admission)),
                            std::move(client), Kind::connection});
 }
@@ -103,7 +103,7 @@ bool Server::admits_viewer(const Client& client) {
 
 bool Server::displace_for(const Client& client, Kind kind) {
   auto best = displaceable_.end();
-  const auto rank = [&](const Displaced& entry) {
+  const auto rank = [&](const DisplaceableConnection& entry) {
     return std::pair{limits_->open(entry.client, kind), entry.kind == Kind::connection};
   };
   for (auto entry = displaceable_.begin(); entry != displaceable_.end(); ++entry) {

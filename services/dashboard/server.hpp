@@ -70,13 +70,13 @@ class Server {
   void add_viewer(std::weak_ptr<Displaceable> viewer, const Client& client) {
     displaceable_.push_back({std::move(viewer), client, Kind::viewer});
   }
-  [[nodiscard]] RateLimit& guesses() { return guesses_; }
-  [[nodiscard]] RateLimit& histories() { return histories_; }
+  [[nodiscard]] RateLimit& guess_limit() { return guesses_; }
+  [[nodiscard]] RateLimit& history_limit() { return histories_; }
   /// Permits one upload at a time. @return false while another upload is in progress
   [[nodiscard]] bool begin_upload() { return !std::exchange(uploads_, true); }
   void end_upload() { uploads_ = false; }
   void count_slow_client() { ++counts_.slow_clients; }
-  void refuse() { ++counts_.refused_requests; }
+  void count_refused_request() { ++counts_.refused_requests; }
   [[nodiscard]] const std::string& session_id() const { return session_id_; }
 
  private:
@@ -101,12 +101,12 @@ class Server {
   Inbox<std::vector<observation::SamplePtr>> inbox_{kMostBatches};
   static constexpr std::size_t kMostBatches = 1000;  ///< several seconds of bus traffic
   std::set<std::shared_ptr<ViewerSession>> viewers_;
-  struct Displaced {
+  struct DisplaceableConnection {
     std::weak_ptr<Displaceable> session;
     Client client;
     Kind kind;
   };
-  std::deque<Displaced> displaceable_;  ///< oldest first
+  std::deque<DisplaceableConnection> displaceable_;  ///< oldest first
   RateLimit guesses_{kMostGuesses}, histories_{kMostHistory_bytes};
   std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;

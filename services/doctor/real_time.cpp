@@ -146,7 +146,7 @@ Findings judge_lateness(const Lateness& lateness, double period_s) {
   // Share of the tolerated lateness, because several processes of the loop can be late in one tick.
   constexpr double kMargin = 0.2;
   if (lateness.max_us > kMargin * tolerable_us)
-    return {{Grade::advice, "rt", "timer_hardly_late", what,
+    return {{Grade::advice, "rt", "timer_nearly_late", what,
              "take load from this computer while the crane runs"}};
   return {{Grade::good, "rt", "timer", what, ""}};
 }

@@ -96,7 +96,7 @@ bool ProcessReplay::deliver(const Received& input, std::uint64_t tick) {
   auto& sender = writers_.operator_of(jog->header, jog->client);
   until([&] { return sender.jogs.matched() > 0; }, "the supervisor to discover a writer of crane/jog");
   if (!sender.jogs.publish(*jog)) return false;
-  until([&] { return sender.jogs.wait_until_received(std::chrono::milliseconds{20}); },
+  until([&] { return sender.jogs.wait_until_acknowledged(std::chrono::milliseconds{20}); },
         "the supervisor to receive a sample of crane/jog");
   return true;
 }

@@ -25,7 +25,8 @@ void add_friction_of_model(const configuration::Rig& rig, MachineModel& machine)
     const auto raise = [&value](const std::string& sign, MachineModel::Friction& friction) {
       friction.rest_v =
           std::max({friction.rest_v, value("coulomb_" + sign + "_v"), value("stiction_" + sign + "_v")});
-      friction.viscous_v = std::max(friction.viscous_v, value("viscous_" + sign + "_vspm"));
+      friction.viscous_vs_per_unit =
+          std::max(friction.viscous_vs_per_unit, value("viscous_" + sign + "_vspm"));
     };
     raise("positive", machine.friction_positive[axis]);
     raise("negative", machine.friction_negative[axis]);
@@ -34,9 +35,9 @@ void add_friction_of_model(const configuration::Rig& rig, MachineModel& machine)
 
 /// After 2 / ratio ticks, the transient of a second-order Butterworth filter is exp(-2 sqrt(2) pi) = 1.4e-4
 /// of its initial size.
-void filter_swing(double cut_off_ratio, MachineModel& machine) {
-  machine.swing_filter = control::butterworth_low_pass(cut_off_ratio);
-  if (cut_off_ratio > 0) machine.swing_filter_ticks = static_cast<int>(std::ceil(2 / cut_off_ratio));
+void filter_swing(double cutoff_ratio, MachineModel& machine) {
+  machine.swing_filter = control::butterworth_low_pass(cutoff_ratio);
+  if (cutoff_ratio > 0) machine.swing_filter_ticks = static_cast<int>(std::ceil(2 / cutoff_ratio));
 }
 
 MachineModel machine_of(const configuration::Rig& rig) {

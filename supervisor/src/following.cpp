@@ -88,7 +88,8 @@ double unmeasured_load_acceleration(const Limits& limits, std::size_t axis,
 
 /// Largest friction of one direction of motion, V.
 double friction_v(const MachineModel::Friction& friction, double speed) noexcept {
-  return kFrictionRatioMax * (friction.rest_v + friction.viscous_v * std::abs(speed)) + kFrictionExtra_v;
+  return kFrictionRatioMax * (friction.rest_v + friction.viscous_vs_per_unit * std::abs(speed)) +
+         kFrictionExtra_v;
 }
 
 /// Motion of one axis over the last three samples.

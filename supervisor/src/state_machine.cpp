@@ -105,16 +105,16 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   if (m.homing) return;  // a cause ends homing: HOMED, HOMING_FAILED, or any other cause
   if (m.state == State::hold && (accepted(answers, Request::move) || in.reference_moving)) {
     enter(State::run, Cause::none, in, m);
-    m.maneuver_began = false;
+    m.move_began = false;
   } else if (m.state == State::run && accepted(answers, Request::move)) {
     m.entered_s = in.now_s;
-    m.maneuver_began = false;
+    m.move_began = false;
   }
   if (m.state != State::run) return;
-  m.maneuver_began = m.maneuver_began || in.reference_moving;
+  m.move_began = m.move_began || in.reference_moving;
   // A move that the planner does not begin ends after clear_time_s.
-  const bool never_began = !m.maneuver_began && in.now_s - m.entered_s >= limits.clear_time_s;
-  if ((m.maneuver_began && !in.reference_moving) || never_began) {
+  const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.clear_time_s;
+  if ((m.move_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
     m.idle_since_s = in.now_s;
   }

@@ -105,13 +105,13 @@ TEST(PadeApproximation, RefusesEquationsThatItCannotApproximate) {
 }
 
 TEST(SwingFilter, ReducesTheDampingAndAShorterDelayRestoresIt) {
-  // Section 4.3: cut-off 0.05 of 100 Hz, load period 2.006 s. Its delay is sqrt(2) / cut_off.
-  const double cut_off = 2 * M_PI * 5 * 2.006;
+  // Section 4.3: cut-off 0.05 of 100 Hz, load period 2.006 s. Its delay is sqrt(2) / cutoff.
+  const double cutoff = 2 * M_PI * 5 * 2.006;
   const auto law = AntiSwing::delayed_1;
   const double bare = damping_of(characteristic(law, {-90, 0.1})).least;
-  const double filtered = damping_of(characteristic(law, {-90, 0.1}, {}, {cut_off})).least;
+  const double filtered = damping_of(characteristic(law, {-90, 0.1}, {}, {cutoff})).least;
   const double shortened =
-      damping_of(characteristic(law, {-90, 0.1 - std::sqrt(2) / cut_off}, {}, {cut_off})).least;
+      damping_of(characteristic(law, {-90, 0.1 - std::sqrt(2) / cutoff}, {}, {cutoff})).least;
   EXPECT_LT(filtered, bare - 0.02);
   EXPECT_NEAR(shortened, bare, 0.02);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPrintedDigits = 5e-5;
 
-TEST(TimedProfile, HasTheNumbersOfEquations354And355) {
+TEST(TimedProfile, HasThePrintedSpeedsAndAccelerations) {  // (3.54), (3.55)
   const double period_s = 2 * std::numbers::pi * std::sqrt(1 / 9.8);
   const auto trolley = timed_profile(0.25, 1.0, period_s, period_s / 4);
   EXPECT_NEAR(trolley.speed, 0.4982, kPrintedDigits);
@@ -23,7 +23,7 @@ TEST(TimedProfile, HasTheNumbersOfEquations354And355) {
   EXPECT_NEAR(slew.acceleration, 2.0796, kPrintedDigits);
 }
 
-TEST(LimitedProfile, TakesTheTimeOfEquation343) {
+TEST(LimitedProfile, TakesDistanceOverSpeedPlusSpeedOverAcceleration) {  // (3.43)
   const auto profile = limited_profile(0, 0.75, {0.4982, 0.9929});
   EXPECT_NEAR(profile.duration_s(), 0.75 / 0.4982 + 0.4982 / 0.9929, 1e-12);
 }

@@ -28,7 +28,7 @@ TEST(Access, ATokenIsAlsoRequiredAtTheRigExceptForAStop) {
     visitor.token = token;
     EXPECT_NE(why_not_operate(kRules, visitor), "");
     EXPECT_EQ(why_not_stop(kRules, visitor), "");
-    EXPECT_EQ(guesses(kRules, visitor), *token != '\0');
+    EXPECT_EQ(sends_wrong_token(kRules, visitor), *token != '\0');
   }
   visitor.loop_back = false;
   EXPECT_NE(why_not_stop(kRules, visitor), "");

@@ -127,7 +127,7 @@ TEST_F(WithToken, AfterEightWrongTokensEvenTheCorrectOneIsNotComparedForASecond)
   EXPECT_LT(Clock::now() - begin, 2 * kGuessDelay);
 }
 
-TEST_F(ServerTest, OfManySimultaneousOperatorsOneGetsTheControls) {
+TEST_F(ServerTest, GivesTheControlsToOneOfManySimultaneousOperators) {
   std::vector<std::future<unsigned>> operators;
   for (int i = 0; i < 16; ++i)
     operators.push_back(std::async(std::launch::async, [&, i] {

@@ -113,7 +113,7 @@ TEST_F(AttackOnAStack, AfterTheSupervisorDiedMovesNothingAndTheNextSupervisorIsO
   EXPECT_TRUE(stack_.until([&] { return supervisor_is(crane_STATE_LOCKED); }, 8s));
 }
 
-TEST_F(AttackOnAStack, WithCommandsThatWereRecordedMovesNothingOfALockedCrane) {
+TEST_F(AttackOnAStack, OnALockedCraneWithRecordedCommandsMovesNothing) {
   stack_.session().arm();
   stack_.session().request(
       {.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {0.8, 0, 0}}, "move");

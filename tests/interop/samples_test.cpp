@@ -91,7 +91,7 @@ TEST_P(Samples, ThatAreAcknowledgedCanBeTakenAtOnce) {
     msg::Jog sample{};
     sample.header.tick = i;
     ASSERT_TRUE(writer.publish(sample));
-    ASSERT_TRUE(writer.wait_until_received(kPatience));
+    ASSERT_TRUE(writer.wait_until_acknowledged(kPatience));
     const auto taken = reader.take();
     ASSERT_TRUE(taken) << "sample " << i;
     ASSERT_EQ(taken->header.tick, i);
@@ -101,7 +101,7 @@ TEST_P(Samples, ThatAreAcknowledgedCanBeTakenAtOnce) {
 TEST_P(Samples, ArriveWithoutAReaderAtNobody) {
   auto writer = from.publisher(topics::jog);
   ASSERT_TRUE(writer.publish({}));
-  EXPECT_TRUE(writer.wait_until_received(kPatience));
+  EXPECT_TRUE(writer.wait_until_acknowledged(kPatience));
 }
 
 TEST_P(Samples, AreAnsweredOnArrival) {

@@ -88,7 +88,7 @@ TEST(Terms, HaveDescriptionsAndUniqueNames) {
   std::set<std::string_view> names;
   for (const TermKind& kind : term_kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
-    EXPECT_FALSE(kind.equation.empty() || kind.source.empty() || kind.axes.empty()) << kind.name;
+    EXPECT_FALSE(kind.equation.empty() || kind.effect.empty() || kind.axes.empty()) << kind.name;
     for (const TermParameter& p : kind.parameters) {
       EXPECT_FALSE(p.unit.empty() || p.meaning.empty()) << kind.name << "." << p.name;
       EXPECT_TRUE(p.low <= p.default_value && p.default_value <= p.high) << kind.name << "." << p.name;

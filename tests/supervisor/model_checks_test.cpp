@@ -68,7 +68,7 @@ class Trolley : public testing::Test {
   double acceleration(double volts_v, double gain) const {
     const auto& friction =
         speed_ > 0 ? limits_.machine.friction_positive[0] : limits_.machine.friction_negative[0];
-    const double most_v = friction.rest_v + friction.viscous_v * std::abs(speed_);
+    const double most_v = friction.rest_v + friction.viscous_vs_per_unit * std::abs(speed_);
     const double side = speed_ != 0 ? std::copysign(1, speed_) : std::copysign(1, volts_v);
     const double net_v = volts_v - side * most_v;
     if (speed_ == 0 && std::abs(volts_v) <= most_v) return 0;

@@ -63,7 +63,7 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       {"not homed", [](Inputs& in) { in.not_homed = true; }, Cause::not_homed},
       {"overrun", [](Inputs& in) { in.overrun = true; }, Cause::overrun}};
   for (const Expectation& row : rows) {
-    Memory m{.state = State::run, .cause = Cause::none, .releasing = true, .maneuver_began = true};
+    Memory m{.state = State::run, .cause = Cause::none, .releasing = true, .move_began = true};
     Inputs in{.now_s = 1,
               .self_test = SelfTest::passed,
               .brakes_open = true,

@@ -19,8 +19,8 @@ Polynomial scaled(double factor, Polynomial p) {
 
 /// 1 + sqrt(2) s / w + (s / w)^2
 Polynomial butterworth(const SwingFilter& filter) {
-  if (filter.cut_off <= 0) return {1};
-  return {1, sqrt2 / filter.cut_off, 1 / (filter.cut_off * filter.cut_off)};
+  if (filter.cutoff <= 0) return {1};
+  return {1, sqrt2 / filter.cutoff, 1 / (filter.cutoff * filter.cutoff)};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ class Writer {
   virtual bool write(const void* sample) = 0;
   virtual bool dispose(const void* sample) = 0;
   virtual bool assert_liveliness() = 0;
-  virtual bool wait_until_received(std::chrono::nanoseconds timeout) = 0;
+  virtual bool wait_until_acknowledged(std::chrono::nanoseconds timeout) = 0;
   [[nodiscard]] virtual int matched() const = 0;
 };
 

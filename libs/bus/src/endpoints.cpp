@@ -52,8 +52,8 @@ bool UntypedPublisher::send(void* sample) {
 }
 bool UntypedPublisher::dispose_of(const void* sample) { return state_->writer->dispose(sample); }
 bool UntypedPublisher::assert_liveliness() { return state_->writer->assert_liveliness(); }
-bool UntypedPublisher::wait_until_received(std::chrono::nanoseconds timeout) {
-  return state_->writer->wait_until_received(timeout);
+bool UntypedPublisher::wait_until_acknowledged(std::chrono::nanoseconds timeout) {
+  return state_->writer->wait_until_acknowledged(timeout);
 }
 int UntypedPublisher::matched() const { return state_->writer->matched(); }
 

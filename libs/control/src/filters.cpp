@@ -34,9 +34,9 @@ FilterSection al_alaoui_second_order(double sample_rate_hz) noexcept {  // (4.10
   return {gain, 0, -gain, 2 * q, q * q};
 }
 
-FilterSection butterworth_low_pass(double cut_off_ratio) noexcept {
-  if (!(cut_off_ratio > 0)) return {};
-  const double w = std::tan(std::numbers::pi * cut_off_ratio);  // prewarped cut-off frequency
+FilterSection butterworth_low_pass(double cutoff_ratio) noexcept {
+  if (!(cutoff_ratio > 0)) return {};
+  const double w = std::tan(std::numbers::pi * cutoff_ratio);  // prewarped cut-off frequency
   const double norm = 1 / (1 + std::numbers::sqrt2 * w + w * w);
   const double gain = w * w * norm;
   return {gain, 2 * gain, gain, 2 * (w * w - 1) * norm, (1 - std::numbers::sqrt2 * w + w * w) * norm};

@@ -59,13 +59,13 @@ std::vector<FilteredLoop> filtered_loops(const configuration::Rig& rig) {
   std::vector<FilteredLoop> loops;
   for (const auto& [name, gains] : laws)
     for (const double ratio : {0.0, 0.2, 0.1, 0.05, 0.03, 0.02, 0.01}) {
-      const double cut_off = 2 * std::numbers::pi * ratio / rig.period_s * period;
+      const double cutoff = 2 * std::numbers::pi * ratio / rig.period_s * period;
       const double delay = ratio > 0 ? filter_delay_s(ratio, rig.period_s) / period : 0;  // load periods
       const auto law = analysis::find_anti_swing(name)->law;
       const analysis::GainPoint less{gains.first, std::max(0.0, gains.second - delay)};
       loops.push_back({std::string{name}, ratio, delay * period * 1e3,
-                       damping_of(analysis::characteristic(law, gains, tracking, {cut_off})),
-                       damping_of(analysis::characteristic(law, less, tracking, {cut_off}))});
+                       damping_of(analysis::characteristic(law, gains, tracking, {cutoff})),
+                       damping_of(analysis::characteristic(law, less, tracking, {cutoff}))});
     }
   return loops;
 }
@@ -86,7 +86,7 @@ void write_filter_markdown(std::ostream& out, const std::vector<FilteredLoop>& l
 }
 
 void write_filter_csv(std::ostream& out, const std::vector<FilteredLoop>& loops) {
-  out << "law,cut_off_ratio,filter_delay_s,dominant_damping,least_damping,dominant_damping_shortened,"
+  out << "law,cutoff_ratio,filter_delay_s,dominant_damping,least_damping,dominant_damping_shortened,"
          "least_damping_shortened\n";
   for (const auto& loop : loops)
     out << loop.law << ',' << recording::shortest(loop.ratio) << ','

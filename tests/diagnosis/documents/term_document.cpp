@@ -51,7 +51,7 @@ std::string rig_file_entry(const plant::TermSetting& setting) {
 /// Description, equation, parameters and example of one term.
 std::string section(const plant::TermKind& kind) {
   const std::string clauses = std::regex_replace(std::string{kind.equation}, std::regex{"; "}, "\n");
-  std::string effect{kind.source};
+  std::string effect{kind.effect};
   effect.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(effect.front())));
   std::string text = "\n## " + std::string{kind.name} + '\n' + effect + ".\n```\n" + clauses +
                      "\n```\n\n| parameter | unit | range | default | meaning |\n|---|---|---|---|---|\n";

@@ -35,10 +35,10 @@ struct Latched {
 /// skipped ticks are interpolated. Without filter_position, position() is the position of the sample itself.
 class Coordinate {
  public:
-  /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter; 0: no filter
+  /// @param cutoff_ratio     cut-off / sampling frequency of the low-pass filter; 0: no filter
   /// @param filter_position  true: position() is also low-pass filtered
   /// @param start            expected counts of the first step
-  Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
+  Coordinate(const configuration::Encoder& encoder, double period_s, double cutoff_ratio,
              bool filter_position = false, std::int64_t start = 0);
   void step(std::int32_t raw_counts, const Latched& latched = {}) noexcept;
   /// Adds `change` to the counter. @pre the axis is at rest

@@ -126,7 +126,7 @@ class CycloneWriter final : public detail::Writer {
   bool write(const void* sample) override { return dds_write(writer_, sample) == DDS_RETCODE_OK; }
   bool dispose(const void* sample) override { return dds_dispose(writer_, sample) == DDS_RETCODE_OK; }
   bool assert_liveliness() override { return dds_assert_liveliness(writer_) == DDS_RETCODE_OK; }
-  bool wait_until_received(std::chrono::nanoseconds timeout) override {
+  bool wait_until_acknowledged(std::chrono::nanoseconds timeout) override {
     return dds_wait_for_acks(writer_, timeout.count()) == DDS_RETCODE_OK;
   }
   [[nodiscard]] int matched() const override {

@@ -98,7 +98,7 @@ class FastWriter final : public detail::Writer, private dds::DataWriterListener 
            ReturnCode_t::RETCODE_OK;
   }
   bool assert_liveliness() override { return writer_->assert_liveliness() == ReturnCode_t::RETCODE_OK; }
-  bool wait_until_received(std::chrono::nanoseconds timeout) override {
+  bool wait_until_acknowledged(std::chrono::nanoseconds timeout) override {
     return writer_->wait_for_acknowledgments(duration(timeout)) == ReturnCode_t::RETCODE_OK;
   }
   [[nodiscard]] int matched() const override {

@@ -33,7 +33,7 @@ class MemoryWriter final : public detail::Writer {
     return true;
   }
   bool assert_liveliness() override { return true; }
-  bool wait_until_received(std::chrono::nanoseconds) override { return true; }  // write() delivers
+  bool wait_until_acknowledged(std::chrono::nanoseconds) override { return true; }  // write() delivers
   [[nodiscard]] int matched() const override { return static_cast<int>(port_.matched); }
 
  private:

@@ -44,7 +44,7 @@ TermKind actuator_lag() {
       .name = "actuator_lag",
       .equation =
           "tau V_1' = V_command - V_1, tau_2 V' = V_1 - V, each averaged over each tick; tau_2 = 0: one lag",
-      .source =
+      .effect =
           "a current loop or a filter between converter and motor delays the voltage; tau_2 > 0: two lags in "
           "series",
       .acts_on = ActsOn::command,

@@ -103,7 +103,7 @@ TermKind backlash() {
           "M_j x^2 and C = 2 M_j x x' slew' for a jib only, Z = (x + b) slew'^2 for a trolley only; inertia "
           "of the motor (1 - j) J, force on the motor -(j J k + P), friction of the motor smaller by r j a / "
           "K",
-      .source =
+      .effect =
           "the nut of the trolley or the gear of the jib has play; the encoder measures the motor, not the "
           "trolley "
           "or the jib",

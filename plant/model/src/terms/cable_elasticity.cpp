@@ -47,7 +47,7 @@ TermKind cable_elasticity() {
       .equation =
           "the load hangs at L + u c m g + s, s'' = T/m - g - s/(c m) - 2 z s'/sqrt(c m), T the tension of "
           "the rigid cable",
-      .source = "the cable stretches by Hooke's law; s is the stretch minus the stretch by the load at rest",
+      .effect = "the cable stretches by Hooke's law; s is the stretch minus the stretch by the load at rest",
       .acts_on = ActsOn::structure,
       .axes = {""},
       .parameters = {{"compliance_mpn", "m/N", 0, 0, 0.1,

@@ -21,7 +21,7 @@ TermKind cable_length() {
   return {
       .name = "cable_length",
       .equation = "L = L_measured + d",
-      .source =
+      .effect =
           "the distance from the suspension point to the centre of mass of the load differs from the "
           "measured "
           "cable length",

@@ -26,7 +26,7 @@ class CommandDeadZone final : public Term {
 TermKind command_dead_zone() {
   return {.name = "command_dead_zone",
           .equation = "V = sign(V_command) max(0, |V_command| - w)",
-          .source = "the amplifier or the converter has no output for small inputs",
+          .effect = "the amplifier or the converter has no output for small inputs",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"width_v", "V", 0, 0, 10,

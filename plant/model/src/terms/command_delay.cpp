@@ -29,7 +29,7 @@ TermKind command_delay() {
           .equation =
               "V(t) = V_command(t - tau), averaged over each tick; in addition to the delay of one tick of "
               "the loop",
-          .source = "bus, converter or amplifier delays the command",
+          .effect = "bus, converter or amplifier delays the command",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau, delay"}},

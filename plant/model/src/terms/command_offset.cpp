@@ -22,7 +22,7 @@ class CommandOffset final : public Term {
 TermKind command_offset() {
   return {.name = "command_offset",
           .equation = "V = V_command + d",
-          .source = "the converter or the amplifier has a zero error",
+          .effect = "the converter or the amplifier has a zero error",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"offset_v", "V", 0, -10, 10, "d, added voltage"}},

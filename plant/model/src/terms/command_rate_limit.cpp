@@ -36,7 +36,7 @@ TermKind command_rate_limit() {
       .name = "command_rate_limit",
       .equation =
           "V(t + dt) = V(t) + max(-r dt, min(r dt, V_command - V(t))); the output is the mean over each tick",
-      .source =
+      .effect =
           "the ramp of a frequency converter or the slew rate of an amplifier limits the rate of the output",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},

@@ -24,7 +24,7 @@ class CommandSaturation final : public Term {
 TermKind command_saturation() {
   return {.name = "command_saturation",
           .equation = "V = max(-V_max, min(V_max, V_command))",
-          .source =
+          .effect =
               "the supply voltage or the current limit of the amplifier limits its output below the range of "
               "the command",
           .acts_on = ActsOn::command,

@@ -27,7 +27,7 @@ class CoulombFriction final : public Term {
 TermKind coulomb_friction() {
   return {.name = "coulomb_friction",
           .equation = "f = c tanh(v/v_s), the same in both directions, in addition to drive_friction",
-          .source = "the Coulomb friction (3.1) differs from that of the rig file",
+          .effect = "the Coulomb friction (3.1) differs from that of the rig file",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"level_v", "V", 0, -10, 10,

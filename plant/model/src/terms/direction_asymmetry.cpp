@@ -32,7 +32,7 @@ TermKind direction_asymmetry() {
       .equation =
           "f = c tanh(|v|/v_s) + b |v|; the friction that opposes the motion is larger by c + b |v| for v > "
           "0 and smaller by the same amount for v < 0",
-      .source =
+      .effect =
           "the difference between the friction (3.1) of the two directions differs from that of the rig file",
       .acts_on = ActsOn::drive,
       .axes = {"trolley", "slew", "hoist"},

@@ -105,7 +105,7 @@ TermKind double_pendulum() {
           "hook (1 - mu) m at L - u, load mu m at l below: l e_2'' = T_1 e_1 / m_1 - (T_2 / m_1 + T_2 / "
           "m_2) e_2 "
           "with the tensions that keep both lengths; F = T_2 along the lower cable on the hook",
-      .source =
+      .effect =
           "hook and load are two masses on two cables; the equations are exact while the suspension point is "
           "at rest",
       .acts_on = ActsOn::structure,

@@ -44,7 +44,7 @@ TermKind drive_friction() {
       .name = "drive_friction",
       .equation =
           "f = (c + max(0, s - c) exp(-(v/v_st)^2)) tanh(v/v_s) + b v, with b, c, s of the direction of v",
-      .source =
+      .effect =
           "the drive has the friction (3.1), smoothed at v = 0; the break-away excess s - c decays with the "
           "speed",
       .acts_on = ActsOn::drive,

@@ -29,7 +29,7 @@ TermKind gear_friction() {
       .equation =
           "f = mu |V - P| tanh(v/v_s), V: output of the amplifier, P: volts of the terms position_force and "
           "torque_ripple of the axis",
-      .source =
+      .effect =
           "the friction of gear teeth increases with the transmitted force (M. Duclusaud et al., Extended "
           "friction models for the physics simulation of servo actuators, ICRA 2025, model M3)",
       .acts_on = ActsOn::drive,

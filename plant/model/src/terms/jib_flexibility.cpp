@@ -47,7 +47,7 @@ TermKind jib_flexibility() {
           "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x^2) - gamma''; inertia of "
           "the "
           "motor (1 - j) J_o, torque on the motor -(j J_o k + P)",
-      .source =
+      .effect =
           "the jib bends sideways (first mode); with a fixed root, its natural frequency is 1 / (2 pi "
           "sqrt(c))",
       .acts_on = ActsOn::structure,

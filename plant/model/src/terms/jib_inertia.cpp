@@ -19,7 +19,7 @@ TermKind jib_inertia() {
   return {
       .name = "jib_inertia",
       .equation = "J = k J_rig_file; the slew gain of the rig file, in rad/s2 per V, stays",
-      .source = "the inertia of the jib differs from that of the rig file",
+      .effect = "the inertia of the jib differs from that of the rig file",
       .acts_on = ActsOn::parameters,
       .axes = {""},
       .parameters = {{"factor", "1", 1, 0.1, 10, "k, true inertia of the jib over that of the rig file"}},

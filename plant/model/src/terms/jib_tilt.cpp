@@ -27,7 +27,7 @@ TermKind jib_tilt() {
           .equation =
               "the jib is inclined by a, the slew axis is vertical: gravity g {-sin(a), 0, -cos(a)} and "
               "angular velocity gamma' {sin(a), 0, cos(a)} in the jib frame",
-          .source =
+          .effect =
               "the jib or the rail of a gantry is not level; the load at rest has phi = a relative to the "
               "normal of the jib",
           .acts_on = ActsOn::parameters,

@@ -21,7 +21,7 @@ class LoadLinearDrag final : public Term {
 TermKind load_linear_drag() {
   return {.name = "load_linear_drag",
           .equation = "F = -d r_L'",
-          .source =
+          .effect =
               "viscous drag acts on the load; r_L' is the velocity of the load relative to the ground (2.12)",
           .acts_on = ActsOn::load,
           .axes = {""},

@@ -23,7 +23,7 @@ class LoadQuadraticDrag final : public Term {
 TermKind load_quadratic_drag() {
   return {.name = "load_quadratic_drag",
           .equation = "F = -d |r_L'| r_L'",
-          .source = "the drag of still air acts on the load, d = rho c_w A / 2",
+          .effect = "the drag of still air acts on the load, d = rho c_w A / 2",
           .acts_on = ActsOn::load,
           .axes = {""},
           .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1e6, "d, force / speed^2"}},

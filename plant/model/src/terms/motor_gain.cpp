@@ -20,7 +20,7 @@ TermKind motor_gain() {
   return {
       .name = "motor_gain",
       .equation = "V = k V_command; friction forces do not change",
-      .source = "the gain of amplifier and motor differs from K_m of (2.10) in the rig file",
+      .effect = "the gain of amplifier and motor differs from K_m of (2.10) in the rig file",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
       .parameters = {{"factor", "1", 1, 0, 5, "k, true gain / gain of the rig file"}},

@@ -19,7 +19,7 @@ TermKind payload_mass() {
   return {
       .name = "payload_mass",
       .equation = "m = m_rig_file + d",
-      .source = "the load mass differs from that of the rig file",
+      .effect = "the load mass differs from that of the rig file",
       .acts_on = ActsOn::parameters,
       .axes = {""},
       .parameters = {{"delta_kg", "kg", 0, -1e6, 1e6,

@@ -31,7 +31,7 @@ class PositionDependentFriction final : public Term {
 TermKind position_dependent_friction() {
   return {.name = "position_dependent_friction",
           .equation = "f = a (1 + cos(2 pi (p - p_0) / w)) / 2 tanh(v/v_s)",
-          .source =
+          .effect =
               "a bent guide or an eccentric gear adds friction: most at the tight spots p_0 + n w, none "
               "midway between two tight spots",
           .acts_on = ActsOn::drive,

@@ -39,7 +39,7 @@ TermKind position_drift() {
       .equation =
           "p_measured = p + r s, s the path length since the start; r s is rounded towards 0 to multiples "
           "of j when j > 0",
-      .source = "a friction wheel slips, or an encoder loses counts while the axis moves",
+      .effect = "a friction wheel slips, or an encoder loses counts while the axis moves",
       .acts_on = ActsOn::sensor,
       .axes = {"trolley", "slew"},
       .parameters = {{"rate", "m/m or rad/rad", 0, -0.5, 0.5, "r, error / distance travelled"},

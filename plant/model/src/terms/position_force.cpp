@@ -27,7 +27,7 @@ class PositionForce final : public Term {
 TermKind position_force() {
   return {.name = "position_force",
           .equation = "f = k p - o: the drive gets V - k p + o, a spring at rest at p = o / k",
-          .source = "a cable, hose or spring pulls the axis back (k > 0), or the axis is not balanced",
+          .effect = "a cable, hose or spring pulls the axis back (k > 0), or the axis is not balanced",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"stiffness_vpm", "V/m or V/rad", 0, -1000, 1000, "k / K_m, stiffness"},

@@ -22,7 +22,7 @@ class PositionScale final : public Term {
 TermKind position_scale() {
   return {.name = "position_scale",
           .equation = "p_measured = k p",
-          .source = "pitch, gear ratio or wheel diameter of a drive differs from the value in the rig file",
+          .effect = "pitch, gear ratio or wheel diameter of a drive differs from the value in the rig file",
           .acts_on = ActsOn::sensor,
           .axes = {"trolley", "slew"},
           .parameters = {{"factor", "1", 1, 0.1, 10, "k, measured / true position"}},

@@ -27,7 +27,7 @@ TermKind steady_wind() {
   return {
       .name = "steady_wind",
       .equation = "F = F_w {cos(a - gamma), sin(a - gamma), 0}",
-      .source =
+      .effect =
           "a steady wind exerts a constant force on the load, in a fixed direction relative to the ground",
       .acts_on = ActsOn::load,
       .axes = {""},

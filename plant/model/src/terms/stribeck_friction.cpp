@@ -29,7 +29,7 @@ class StribeckFriction final : public Term {
 TermKind stribeck_friction() {
   return {.name = "stribeck_friction",
           .equation = "f = a exp(-(v/v_d)^2) tanh(v/v_s)",
-          .source =
+          .effect =
               "the friction at low speed exceeds the Coulomb friction (Armstrong-Helouvry, Dupont, Canudas "
               "de Wit, "
               "Automatica 30 (1994) 1083, Gaussian form)",

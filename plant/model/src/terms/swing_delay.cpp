@@ -31,7 +31,7 @@ TermKind swing_delay() {
   return {
       .name = "swing_delay",
       .equation = "phi_measured(t) = phi(t - tau), interpolated linearly between ticks",
-      .source = "camera, radio link or serial converter delays the measured swing",
+      .effect = "camera, radio link or serial converter delays the measured swing",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential", ""},
       .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau, delay"}},

@@ -25,7 +25,7 @@ class SwingMisalignment final : public Term {
 TermKind swing_misalignment() {
   return {.name = "swing_misalignment",
           .equation = "phi_measured = phi cos(a) + theta sin(a), theta_measured = theta cos(a) - phi sin(a)",
-          .source = "the fork of the swing encoders is rotated relative to the jib about the vertical axis",
+          .effect = "the fork of the swing encoders is rotated relative to the jib about the vertical axis",
           .acts_on = ActsOn::sensor,
           .axes = {""},
           .parameters = {{"angle_rad", "rad", 0, -0.8, 0.8, "a, angle of the rotation"}},

@@ -43,7 +43,7 @@ TermKind swing_moving_average() {
       .name = "swing_moving_average",
       .equation =
           "phi_measured(t) = 1/w integral of phi from t - w to t, phi interpolated linearly between ticks",
-      .source =
+      .effect =
           "the swing sensor averages its samples; n samples with equal weights correspond to w = (n - 1) "
           "ticks",
       .acts_on = ActsOn::sensor,

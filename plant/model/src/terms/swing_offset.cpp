@@ -23,7 +23,7 @@ TermKind swing_offset() {
   return {
       .name = "swing_offset",
       .equation = "phi_measured = phi + d",
-      .source = "a swing encoder was not zeroed with the load at rest",
+      .effect = "a swing encoder was not zeroed with the load at rest",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential"},
       .parameters = {{"offset_rad", "rad", 0, -0.5, 0.5, "d, measured angle at phi = 0"}},

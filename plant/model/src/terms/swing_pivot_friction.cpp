@@ -33,7 +33,7 @@ class SwingPivotFriction final : public Term {
 TermKind swing_pivot_friction() {
   return {.name = "swing_pivot_friction",
           .equation = "Q = -(b w + c tanh(w/w_s)), w = phi' or theta'",
-          .source = "the bearings of the upper cable joint, at the swing encoders, have friction",
+          .effect = "the bearings of the upper cable joint, at the swing encoders, have friction",
           .acts_on = ActsOn::load,
           .axes = {"radial", "tangential", ""},
           .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 1e8, "b, viscous friction"},

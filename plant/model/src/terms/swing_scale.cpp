@@ -23,7 +23,7 @@ TermKind swing_scale() {
   return {
       .name = "swing_scale",
       .equation = "phi_measured = k phi",
-      .source = "counts per turn or gear ratio of a swing encoder differs from the value in the rig file",
+      .effect = "counts per turn or gear ratio of a swing encoder differs from the value in the rig file",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential"},
       .parameters = {{"factor", "1", 1, 0.1, 10, "k, measured / true angle"}},

@@ -31,7 +31,7 @@ class TorqueRipple final : public Term {
 TermKind torque_ripple() {
   return {.name = "torque_ripple",
           .equation = "f = -a sin(2 pi p / w + psi): the drive gets V + a sin(2 pi p / w + psi)",
-          .source =
+          .effect =
               "cogging of the motor or an eccentric gear causes a force that depends on the position, not on "
               "the direction",
           .acts_on = ActsOn::drive,

@@ -22,7 +22,7 @@ class ViscousFriction final : public Term {
 TermKind viscous_friction() {
   return {.name = "viscous_friction",
           .equation = "f = b v, the same in both directions, in addition to drive_friction",
-          .source = "the viscous friction (3.1) differs from that of the rig file",
+          .effect = "the viscous friction (3.1) differs from that of the rig file",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"vspm", "V s/m or V s/rad", 0, -1000, 1000,

@@ -51,7 +51,7 @@ TermKind wind_gust() {
       .equation =
           "F = d |w| w, w = (V + u) {cos(a - gamma), sin(a - gamma), 0} - r_L'; u_k+1 = q u_k + sigma sqrt(1 "
           "- q^2) n_k, q = exp(-V T / L), T the period, n_k normal with variance 1",
-      .source =
+      .effect =
           "the drag of moving air acts on the load; u is the longitudinal gust of the Dryden model "
           "(MIL-F-8785C, section 3.7.2)",
       .acts_on = ActsOn::load,

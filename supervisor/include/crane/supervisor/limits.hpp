@@ -24,8 +24,8 @@ struct MachineModel {
   bool known = false;  ///< false: following error and swing encoders are not checked
   plant::Parameters crane{};
   struct Friction {
-    double rest_v = 0;     ///< the larger of stiction and Coulomb friction, V
-    double viscous_v = 0;  ///< V per unit/s
+    double rest_v = 0;  ///< the larger of stiction and Coulomb friction, V
+    double viscous_vs_per_unit = 0;
   };
   std::array<Friction, kAxes> friction_positive{}, friction_negative{};  ///< by the direction of motion
   PerAxis resolution{};                                                  ///< one count of the encoder, unit
@@ -53,7 +53,8 @@ struct Limits : control::OperatingLimits {
   int demand_invalid_in_row = 3;      ///< consecutive rejected demands that stop the crane, >= 1
   /// consecutive late ticks that stop the crane; 0: late ticks do not stop the crane
   int overruns_in_row = 3;
-  /// time without a cause before a reset, and with complete inputs before arming, >= 0
+  /// time without a cause before a reset, with fresh state and demand before arming, and in RUN until a
+  /// move that never began ends; >= 0
   double clear_time_s = 1;
   double standstill_time_s = 0.1;  ///< time near one position that counts as standstill, > 0
   double c1_ramp_time_s = 0.02;    ///< duration of the ramp from full voltage to 0 V, in [0, 0.02]

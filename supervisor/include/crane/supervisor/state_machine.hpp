@@ -1,5 +1,6 @@
 #pragma once
-/// State machine of the supervisor: a pure function of the inputs of one tick, the memory and the time.
+/// State machine of the supervisor: a deterministic function of the inputs of one tick, the memory and the
+/// time. No I/O; step() changes nothing but the memory.
 #include "crane/supervisor/envelope.hpp"
 #include "crane/supervisor/following.hpp"
 
@@ -8,9 +9,10 @@ namespace crane::supervisor {
 /// Self-test of the board at the start (process/board_self_test.hpp).
 enum class SelfTest : std::uint8_t {
   not_started,  ///< until the first step of the supervisor
-  running,      ///< until the board has been safe for several ticks in a row, or the longest time has passed
+  running,      ///< until the board has been safe for ten states in a row (passed), or has not been for 2 s
+                ///< (failed)
   passed,       ///< until the bridge restarts
-  failed        ///< until the bridge restarts; leads to FAULT
+  failed        ///< leads to FAULT, which only a restart of the supervisor ends
 };
 
 enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home };
@@ -51,7 +53,7 @@ struct Inputs {
   bool brakes_open = false;          ///< true: every present brake reports open
   bool brakes_closed = true;         ///< true: every present brake reports closed
   bool standstill = false;           ///< true: every present axis is at rest
-  bool reference_moving = false;     ///< true: the planner executes a maneuver
+  bool reference_moving = false;     ///< true: the planner executes a move
   bool not_homed = false;            ///< the position of an axis has no known origin
   std::size_t unhomed_axis = 0;      ///< first axis with such a position, < kAxes
   bool can_home = true;              ///< true: the axis of Request::home has a homing mark
@@ -63,16 +65,16 @@ struct Inputs {
 struct Memory {
   State state = State::boot;
   Cause cause = Cause::start;
-  double entered_s = 0;         ///< time at which `state` was entered
-  double clear_since_s = 0;     ///< time since which no cause blocks a reset
-  double fresh_since_s = 0;     ///< time since which state and demand are complete
-  double idle_since_s = 0;      ///< HOLD: end of the last move
-  double release_since_s = 0;   ///< ARMING: time at which the brakes were commanded open
-  bool releasing = false;       ///< true: the brakes are commanded open
-  bool ramping = false;         ///< STOP_C1: true: the voltage ramps to zero
-  int ramp_tick = 0;            ///< number of ticks of the ramp so far
-  bool maneuver_began = false;  ///< RUN: true: the reference has moved
-  bool reset_was_up = false;    ///< true: the previous tick requested a reset
+  double entered_s = 0;        ///< time at which `state` was entered
+  double clear_since_s = 0;    ///< time since which no cause blocks a reset
+  double fresh_since_s = 0;    ///< time since which state and demand are fresh
+  double idle_since_s = 0;     ///< HOLD: end of the last move
+  double release_since_s = 0;  ///< ARMING: time at which the brakes were commanded open
+  bool releasing = false;      ///< true: the brakes are commanded open
+  bool ramping = false;        ///< STOP_C1: true: the voltage ramps to zero
+  int ramp_tick = 0;           ///< number of ticks of the ramp so far
+  bool move_began = false;     ///< RUN: true: the reference has moved
+  bool reset_was_up = false;   ///< true: the previous tick requested a reset
   bool self_test_passed = false;
   bool homing = false;  ///< true: the crane is armed only to home one axis
 };

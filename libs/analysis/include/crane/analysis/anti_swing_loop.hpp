@@ -69,10 +69,10 @@ struct TrackingGains {
   double proportional = 100, derivative = 20;
 };
 
-/// Second-order Butterworth low-pass filter on the swing angle, in continuous time. cut_off = 2 pi T f_c with
-/// f_c the cut-off frequency in Hz; 0: no filter. The delay at low frequency is sqrt(2) / cut_off.
+/// Second-order Butterworth low-pass filter on the swing angle, in continuous time. cutoff = 2 pi T f_c
+/// with f_c the cut-off frequency in Hz; 0: no filter. The delay at low frequency is sqrt(2) / cutoff.
 struct SwingFilter {
-  double cut_off = 0;
+  double cutoff = 0;
 };
 
 /// @return characteristic function of the closed loop. @pre gains.second >= 0 for the delayed laws

@@ -54,9 +54,9 @@ class UntypedPublisher {
 
   [[nodiscard]] bool assert_liveliness();
   /// Waits until all matched readers have acknowledged all samples of this publisher and can take them. A
-  /// reader also acknowledges samples that were sent before it discovered this publisher, without receiving
-  /// them. @return false when a reader has not acknowledged within `timeout`
-  [[nodiscard]] bool wait_until_received(std::chrono::nanoseconds timeout);
+  /// reader that discovers this publisher later acknowledges earlier samples without receiving them.
+  /// @return false when a reader has not acknowledged within `timeout`
+  [[nodiscard]] bool wait_until_acknowledged(std::chrono::nanoseconds timeout);
   /// Number of matched readers.
   [[nodiscard]] int matched() const;
 

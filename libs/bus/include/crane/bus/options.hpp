@@ -48,7 +48,7 @@ struct Options {
   std::string discovery_server{};
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
   /// True: Cyclone DDS sends heartbeats every 2 ms on loop-back, too, instead of every 100 ms.
-  /// Publisher::wait_until_received() then returns soon after the reception. Other vendors ignore this
+  /// Publisher::wait_until_acknowledged() then returns soon after the reception. Other vendors ignore this
   /// option.
   bool confirms_soon = false;
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end

@@ -27,9 +27,9 @@ struct FilterMemory {
 [[nodiscard]] FilterSection al_alaoui_first_order(double sample_rate_hz) noexcept;
 /// y(k) = -2q y(k-1) - q^2 y(k-2) + 3 f_s/(2 + sqrt 3) (x(k) - x(k-2)), q = 2 - sqrt 3    (4.10), corrected
 [[nodiscard]] FilterSection al_alaoui_second_order(double sample_rate_hz) noexcept;
-/// Second-order Butterworth filter (bilinear transform with prewarping), -3 dB at cut_off_ratio * f_s.
-/// @param cut_off_ratio  cut-off frequency / sampling frequency, in (0, 0.5); the source uses 0.05; 0: no
+/// Second-order Butterworth filter (bilinear transform with prewarping), -3 dB at cutoff_ratio * f_s.
+/// @param cutoff_ratio  cut-off frequency / sampling frequency, in (0, 0.5); the source uses 0.05; 0: no
 ///   filter
-[[nodiscard]] FilterSection butterworth_low_pass(double cut_off_ratio) noexcept;
+[[nodiscard]] FilterSection butterworth_low_pass(double cutoff_ratio) noexcept;
 
 }  // namespace crane::control

@@ -134,7 +134,7 @@ struct TermParameter {
 struct TermKind {
   std::string_view name;
   std::string_view equation;  ///< clauses separated by "; ". x' is the derivative of x
-  std::string_view source;    ///< the physical effect, in words
+  std::string_view effect;    ///< the physical effect, in words
   ActsOn acts_on = ActsOn::drive;
   std::vector<std::string_view> axes;  ///< permitted values of TermSetting::axis; "": the term needs no axis
   std::vector<TermParameter> parameters;
