@@ -23,6 +23,7 @@ constexpr double kViscous_vspm = 0.4;
 struct Setup {
   unsigned latest_step = 0;     ///< largest delay of a row after its tick, in steps of 1/20 tick
   double disturbance_v = 0.02;  ///< rms, correlation time 1 s
+  double command_hz = 0;        ///< frequency of the command beside a slow sine; 0: random commands
 };
 
 /// A drive axis with viscous friction under random commands. @param extra_v additional voltage, of time,
@@ -40,6 +41,10 @@ PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned see
   double x = 0, v = 0, u = 0, push = 0;
   for (int k = 0; k < duration_s / kTick_s; ++k) {
     if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
+    if (setup.command_hz > 0) {
+      const double turn = 2 * std::numbers::pi * kTick_s * k;
+      u = 0.5 * std::sin(setup.command_hz * turn) + 0.3 * std::sin(0.27 * turn);
+    }
     push += (-push * kTick_s + setup.disturbance_v * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
     run.command_v.push_back({u, 0, 0});
     run.cable_m.push_back(1);
@@ -181,6 +186,28 @@ TEST(Unexplained, PeriodicForceIsALine) {
   ASSERT_TRUE(left.line);
   EXPECT_THAT(left.line->variable, testing::HasSubstr("0.7 Hz"));
   EXPECT_EQ(left.line->output, kTrolleyPosition);
+}
+
+/// The friction differs in its form only, so that its force has the frequency of the command.
+TEST(Unexplained, ForceOfAPeriodicMotionIsNoLine) {
+  const configuration::Rig rig = axis_with_viscous_friction();
+  const auto friction = [](double, double, double v) {
+    return -0.06 * std::tanh(v / 1e-3) * std::exp(-std::abs(v) / 0.02);
+  };
+  const Setup periodic{.command_hz = 1.7};
+  const Left left = left_in({moved(rig, 20, 1, friction), moved(rig, 20, 2, friction, periodic)}, rig);
+  EXPECT_FALSE(left.line) << left.line->variable;
+}
+
+TEST(Unexplained, PeriodicForceBesideAPeriodicCommandIsALine) {
+  const configuration::Rig rig = axis_with_viscous_friction();
+  const auto shaken = [](double t, double, double) {
+    return 0.05 * std::sin(2 * std::numbers::pi * 1.1 * t);
+  };
+  const Setup periodic{.command_hz = 1.7};
+  const Left left = left_in({moved(rig, 20, 1, shaken, periodic), moved(rig, 20, 2, shaken, periodic)}, rig);
+  ASSERT_TRUE(left.line);
+  EXPECT_NEAR(left.line->hz, 1.1, 0.03);
 }
 
 TEST(Unexplained, BrakeThatGripsIntermittentlyIsAJumpOfTheSpeed) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
 #include <numbers>
 #include <random>
@@ -23,20 +24,56 @@ using Eigen::VectorXd;
 constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
 constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
+/// Level of the test whether the command of a run has a line.
+constexpr double kCommandLevel = 0.01;
 /// Share of the loss below which a line has no consequence for the crane.
 constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
 /// A force of one frequency: cosine and sine on each piece. Each run has its own phase.
 struct Line {
   double hz = 0;
-  std::vector<NormalEquations> pieces;
+  std::vector<std::optional<NormalEquations>> pieces;  ///< nothing: the commands of the run have this line
 };
+
+double turn_per_row(const Run& run, double hz) { return 2 * std::numbers::pi * hz * run.period_s; }
+
+/// True when the amplitudes of a command at `hz` have similar phases in all pieces of the run (Rayleigh
+/// test). A force of this frequency can then be a function of the motion, for example friction whose form
+/// differs.
+bool commands_have_line(const Pieces& pieces, std::size_t run_index, double hz) {
+  const double most = -std::log(kCommandLevel);  // of random phases: exponentially distributed, mean 1
+  const Run& run = (*pieces.runs)[run_index].run;
+  std::array<std::complex<double>, plant::kAxes> sum{};
+  std::array<double, plant::kAxes> squares{};
+  for (const Piece& piece : pieces.all) {
+    if (piece.run != run_index) continue;
+    std::array<std::complex<double>, plant::kAxes> amplitude{};
+    for (std::size_t k = piece.first; k < piece.first + piece.rows; ++k) {
+      const auto wave = std::polar(1.0, -turn_per_row(run, hz) * static_cast<double>(k));
+      for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
+        amplitude[axis] += run.command_v[k][axis] * wave;
+    }
+    for (std::size_t axis = 0; axis < plant::kAxes; ++axis) {
+      sum[axis] += amplitude[axis];
+      squares[axis] += std::norm(amplitude[axis]);
+    }
+  }
+  for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
+    if (std::norm(sum[axis]) > most * squares[axis]) return true;
+  return false;
+}
 
 Line line_at(const Pieces& pieces, double hz) {
   Line line{hz, {}};
-  const double omega = 2 * std::numbers::pi * hz;
+  std::map<std::size_t, bool> commanded;
   for (const Piece& piece : pieces.all) {
-    const double turn = omega * (*pieces.runs)[piece.run].run.period_s;
+    const auto [known, fresh] = commanded.try_emplace(piece.run, false);
+    if (fresh) known->second = commands_have_line(pieces, piece.run, hz);
+    if (known->second) {
+      line.pieces.emplace_back();
+      continue;
+    }
+    const double turn = turn_per_row((*pieces.runs)[piece.run].run, hz);
     MatrixXd waves(static_cast<Index>(piece.rows), 2);
     for (Index k = 0; k < waves.rows(); ++k) {
       const double phase = turn * static_cast<double>(static_cast<Index>(piece.first) + k);
@@ -54,10 +91,10 @@ ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& sign
                     bool inside) {
   ByRun sums;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
-    if ((i % kLineFolds == fold) != inside) continue;
+    if (!line.pieces[i] || (i % kLineFolds == fold) != inside) continue;
     auto [of_run, fresh] = sums.try_emplace(pieces.all[i].run, NormalEquations{2});
-    of_run->second.score += signs[static_cast<Index>(i)] * line.pieces[i].score;
-    of_run->second.hessian += line.pieces[i].hessian;
+    of_run->second.score += signs[static_cast<Index>(i)] * line.pieces[i]->score;
+    of_run->second.hessian += line.pieces[i]->hessian;
   }
   return sums;
 }
