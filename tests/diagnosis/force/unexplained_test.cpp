@@ -20,7 +20,7 @@ using stepper::friction_step;
 constexpr double kTick_s = 0.01;
 constexpr double kViscous_vspm = 0.4;
 
-struct Setup {
+struct Conditions {
   unsigned latest_step = 0;     ///< largest delay of a row after its tick, in steps of 1/20 tick
   double disturbance_v = 0.02;  ///< rms, correlation time 1 s
   double command_hz = 0;        ///< frequency of the command beside a slow sine; 0: random commands
@@ -30,7 +30,7 @@ struct Setup {
 /// position and speed
 template <class Extra>
 PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v,
-                  const Setup& setup = {}) {
+                  const Conditions& conditions = {}) {
   constexpr int kSteps = 20;
   std::mt19937 random(seed), late(seed + 100);
   std::normal_distribution<double> normal;
@@ -41,16 +41,16 @@ PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned see
   double x = 0, v = 0, u = 0, push = 0;
   for (int k = 0; k < duration_s / kTick_s; ++k) {
     if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
-    if (setup.command_hz > 0) {
+    if (conditions.command_hz > 0) {
       const double turn = 2 * std::numbers::pi * kTick_s * k;
-      u = 0.5 * std::sin(setup.command_hz * turn) + 0.3 * std::sin(0.27 * turn);
+      u = 0.5 * std::sin(conditions.command_hz * turn) + 0.3 * std::sin(0.27 * turn);
     }
-    push += (-push * kTick_s + setup.disturbance_v * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
+    push += (-push * kTick_s + conditions.disturbance_v * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
     run.command_v.push_back({u, 0, 0});
     run.cable_m.push_back(1);
     const double count = 1e-5 * normal(random);
-    const int row_at = static_cast<int>(late() % (setup.latest_step + 1));
-    if (setup.latest_step > 0) run.offset_s.push_back(row_at * kTick_s / kSteps);
+    const int row_at = static_cast<int>(late() % (conditions.latest_step + 1));
+    if (conditions.latest_step > 0) run.offset_s.push_back(row_at * kTick_s / kSteps);
     for (int step = 0; step < kSteps; ++step) {
       if (step == row_at) run.measured[kTrolleyPosition].push_back(x + count);
       const double t = kTick_s * (k + static_cast<double>(step) / kSteps);
@@ -194,7 +194,7 @@ TEST(Unexplained, ForceOfAPeriodicMotionIsNoLine) {
   const auto friction = [](double, double, double v) {
     return -0.06 * std::tanh(v / 1e-3) * std::exp(-std::abs(v) / 0.02);
   };
-  const Setup periodic{.command_hz = 1.7};
+  const Conditions periodic{.command_hz = 1.7};
   const Left left = left_in({moved(rig, 20, 1, friction), moved(rig, 20, 2, friction, periodic)}, rig);
   EXPECT_FALSE(left.line) << left.line->variable;
 }
@@ -204,7 +204,7 @@ TEST(Unexplained, PeriodicForceBesideAPeriodicCommandIsALine) {
   const auto shaken = [](double t, double, double) {
     return 0.05 * std::sin(2 * std::numbers::pi * 1.1 * t);
   };
-  const Setup periodic{.command_hz = 1.7};
+  const Conditions periodic{.command_hz = 1.7};
   const Left left = left_in({moved(rig, 20, 1, shaken, periodic), moved(rig, 20, 2, shaken, periodic)}, rig);
   ASSERT_TRUE(left.line);
   EXPECT_NEAR(left.line->hz, 1.1, 0.03);
