@@ -23,8 +23,9 @@ struct OperatorRequest {
   std::vector<crane_Sine> sines{};                       ///< follow: at most four
   double duration_s = 0;                                 ///< follow: duration
   crane_OperatingMode mode = crane_MODE_SEMI_AUTOMATIC;  ///< mode: new operating mode
-  /// Header of the newest crane/supervisor that the operator has seen. In real time the supervisor refuses a
-  /// request whose operator has not seen the crane within the last 2 s, unless the request stops the crane.
+  /// Header of the newest crane/supervisor that this client has received. In real time, the supervisor
+  /// refuses a request that names a tick older than 2 s or older than the last stop, unless the request stops
+  /// the crane.
   msg::Header seen{};
 };
 
