@@ -38,9 +38,9 @@ class RealtimeRuns {
   explicit RealtimeRuns(RealtimeRunOptions options) : options_{std::move(options)} {}
 
   /// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
-  /// @throws SessionError when the crane was stopped; when the run before has left a swinging load, another
-  ///   operator has reset the crane since then, or its position is not known;
-  ///   configuration::ConfigurationError, std::runtime_error
+  /// @throws SessionError when the crane was stopped; when, at the end of the previous run, the load was
+  ///   swinging, a brake was open, or the position was not observed; when another operator has reset the
+  ///   crane since the previous run; configuration::ConfigurationError, std::runtime_error
   [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
                                 const experiment::Scenario& scenario);
 

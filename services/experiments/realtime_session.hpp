@@ -50,8 +50,8 @@ class RealtimeSession {
   /// supervisor has accepted a move of another client after the first HOLD: the session must not replace the
   /// move of another operator.
   void end_at_stops() { ends_at_stops_ = true; }
-  /// Disarms the crane and waits at most 2 s until it is LOCKED. Afterwards, stops and moves of others end
-  /// nothing. @throws SessionError
+  /// Disarms the crane and waits at most 2 s until it is LOCKED. Afterwards, stops and moves by
+  /// other clients do not end the session. @throws SessionError
   void disarm();
   /// @return whether an operator has reset the crane after disarm()
   [[nodiscard]] bool taken_over() const;
@@ -89,8 +89,8 @@ class RealtimeSession {
   std::uint64_t move_number_ = 0;             ///< AcceptedMove.number of the newest status
   bool ends_at_stops_ = false, was_in_hold_ = false;
   bool disarmed_ = false;    ///< disarm() was called
-  bool locked_ = false;      ///< the crane was LOCKED since then
-  bool taken_over_ = false;  ///< a reset has ended LOCKED
+  bool locked_ = false;      ///< the crane was LOCKED after disarm()
+  bool taken_over_ = false;  ///< another client has reset the crane after disarm()
 };
 
 /// Text of state, cause and remedy: "STOP_C1 because of SWING_LIMIT; remedy".

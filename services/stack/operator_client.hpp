@@ -44,9 +44,10 @@ class OperatorClient {
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
   /// Sends an unanswered request again, under a new id. Without keys, a forged packet can make readers skip
-  /// all later samples of a DDS writer. Therefore every other repetition goes through a spare writer, which
-  /// is replaced after kUnanswered unanswered repetitions. An answer to such a repetition makes the spare
-  /// writer the writer of send(). With keys, the packet cannot be forged, and all repetitions use one writer.
+  /// all later samples of a DDS writer. Therefore every other repetition goes through a spare writer. It is
+  /// replaced after kUnanswered repetitions that all readers could receive and that nobody answered. When a
+  /// repetition through it is answered, the two writers change places. With keys, the packet cannot be
+  /// forged, and all repetitions use one writer.
   /// @return id of the repetition
   std::uint64_t repeat(const OperatorRequest& wanted);
   static constexpr int kUnanswered = 2;
@@ -67,7 +68,7 @@ class OperatorClient {
   /// Writer of every other repetition.
   struct Spare {
     bus::Publisher<msg::Request> requests;
-    std::vector<std::uint64_t> ids{};  ///< repetitions sent while all readers of `requests_` received them
+    std::vector<std::uint64_t> ids{};  ///< repetitions sent after all readers had discovered this writer
   };
   std::uint64_t send(const OperatorRequest& wanted, bus::Publisher<msg::Request>& writer);
   void prefer_answered_writer(std::uint64_t id);

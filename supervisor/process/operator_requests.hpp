@@ -42,8 +42,9 @@ class OperatorRequests {
   [[nodiscard]] Mode mode() const { return mode_; }
   /// Last accepted move; number 0: none.
   [[nodiscard]] const msg::AcceptedMove& move() const { return move_; }
-  /// True from the acceptance of a move until its reference has ended, but at most for kToTakeUp_s while
-  /// the planner has not begun the move. A missing reference does not end RUN. Call once per step.
+  /// True from the acceptance of a move until its reference has ended. If the planner does not begin the move
+  /// within 0.2 s (kToTakeUp_s), it becomes false. After the beginning, a missing reference does not end RUN.
+  /// Call once per step.
   /// @param reference  null: none arrived
   [[nodiscard]] bool is_moving(const msg::Reference* reference);
 

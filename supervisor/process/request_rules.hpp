@@ -30,9 +30,9 @@ namespace crane::supervisor {
 /// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 
-/// Requests of which only the first in each tick is executed. The search for the path of a move takes up to
-/// a tick with a hundred zones (docs/zones.md#figures); a flood of moves must not delay the command
-/// further. Only one axis is homed at a time.
+/// Requests of which only the first in each tick is executed. If there are a hundred zones, the search for
+/// the path of one move takes up to 10 ms (docs/zones.md#figures), and several searches in one tick would
+/// delay the command. Only one axis is homed at a time.
 class OncePerTick {
  public:
   /// @return why the request is refused after the earlier requests of this tick; empty: it is the first such

@@ -6,7 +6,7 @@
 /// supervisor exits (yields()) beside an established supervisor, which may be in use. If both are new, the
 /// supervisor with the larger start-up number exits. At most one of two supervisors exits: only a new
 /// supervisor exits, an established one never becomes new again, and two start-up numbers differ. A sample of
-/// crane/node alone ends no supervisor, because many processes may write it. crane/supervisor has
+/// crane/node alone ends no supervisor, because several processes may write it. crane/supervisor has
 /// one writer, and keys authenticate this writer.
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-/// Durations of the supervisor process in ticks. The period of a rig may be 1 ms or 10 ms.
+/// Durations of the supervisor process in ticks. In real time, the period of a rig is at least 1 ms.
 #include <cmath>
 #include <cstdint>
 

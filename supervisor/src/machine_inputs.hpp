@@ -14,8 +14,8 @@ namespace crane::supervisor {
 [[nodiscard]] EnvelopeInput measured_now(const Limits& limits, const TickInput& input,
                                          const TickMemory& memory);
 
-/// Results of all checks of one tick. No member has a default value, so that a tick without one of the checks
-/// does not compile.
+/// Results of all checks of one tick. No member has a default value: a caller that omits a check does not
+/// compile (-Werror).
 struct Checks {
   const Envelope& envelope;
   const GateOutput& gated;

@@ -1,6 +1,6 @@
 #pragma once
-/// The command gate: every demand passes the gate before it reaches a drive. Order of the
-/// stages: finite, range, rate, age, stopping envelope (docs/safety.md#the-gate-and-the-stopping-distance).
+/// The command gate: every demand passes the gate before it reaches a drive.
+/// docs/safety.md#the-gate-and-the-stopping-distance lists the stages in their order.
 #include "crane/supervisor/envelope.hpp"
 
 namespace crane::supervisor {

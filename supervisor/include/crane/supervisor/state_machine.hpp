@@ -9,8 +9,7 @@ namespace crane::supervisor {
 /// Self-test of the board at the start (process/board_self_test.hpp).
 enum class SelfTest : std::uint8_t {
   not_started,  ///< until the first step of the supervisor
-  running,      ///< until the board has been safe for ten states in a row (passed), or has not been for 2 s
-                ///< (failed)
+  running,      ///< passes after ten safe states in a row, fails after 2 s without ten safe states in a row
   passed,       ///< until the bridge restarts
   failed        ///< leads to FAULT, which only a restart of the supervisor ends
 };
@@ -53,7 +52,7 @@ struct Inputs {
   bool brakes_open = false;          ///< true: every present brake reports open
   bool brakes_closed = true;         ///< true: every present brake reports closed
   bool standstill = false;           ///< true: every present axis is at rest
-  bool reference_moving = false;     ///< true: the planner executes a move
+  bool reference_moving = false;     ///< true: a move or a session of the stick is in progress
   bool not_homed = false;            ///< the position of an axis has no known origin
   std::size_t unhomed_axis = 0;      ///< first axis with such a position, < kAxes
   bool can_home = true;              ///< true: the axis of Request::home has a homing mark
@@ -73,7 +72,7 @@ struct Memory {
   bool releasing = false;      ///< true: the brakes are commanded open
   bool ramping = false;        ///< STOP_C1: true: the voltage ramps to zero
   int ramp_tick = 0;           ///< number of ticks of the ramp so far
-  bool move_began = false;     ///< RUN: true: the reference has moved
+  bool move_began = false;     ///< RUN: true: reference_moving was true
   bool reset_was_up = false;   ///< true: the previous tick requested a reset
   bool self_test_passed = false;
   bool homing = false;  ///< true: the crane is armed only to home one axis

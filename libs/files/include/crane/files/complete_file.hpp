@@ -45,8 +45,8 @@ class CompleteFile {
   bool published_ = false;
 };
 
-/// Call before the work whose result `file` will contain. Changes nothing. @throws WriteError, as
-/// CompleteFile
+/// Tests that `file` can be written, without changing it. Call it before long work whose result is written to
+/// `file`. @throws WriteError in the same cases as CompleteFile
 void require_writable(const std::filesystem::path& file);
 
 /// Writes `file` completely, or leaves it as it was. Devices and pipes receive the bytes directly.
