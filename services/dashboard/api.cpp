@@ -110,7 +110,7 @@ ApiAnswer Api::get(const ApiRequest& request) {
             .body = metrics(model_, counts_(), runtime::monotonic_ns())};
   if (path == "/api/about") return about(request.visitor);
   if (path == "/api/situation") return {.body = model_.text(Document::situation)};
-  if (path == "/api/tick") return tick();
+  if (path == "/api/seen") return seen();
   if (path == "/api/traffic") return {.body = model_.text(Document::traffic)};
   if (path == "/api/faults") return {.body = model_.text(Document::faults)};
   if (path == "/api/operator") return {.body = model_.text(Document::seat)};
@@ -123,9 +123,9 @@ ApiAnswer Api::get(const ApiRequest& request) {
   return problem_answer(404, "this path does not exist; docs/dashboard.md lists the paths");
 }
 
-ApiAnswer Api::tick() const {
+ApiAnswer Api::seen() const {
   const auto& status = model_.situation().supervisor();
-  return json_answer({{"tick", status ? ordered_json(status->header.tick) : ordered_json(nullptr)}});
+  return json_answer({{"seen", status ? ordered_json(mark_of(status->header)) : ordered_json(nullptr)}});
 }
 
 ApiAnswer Api::about(const Visitor& visitor) const {
@@ -201,15 +201,19 @@ void Api::request(const ApiRequest& request, AnswerHandler answer) {
   };
   if (!is_stop(wanted.kind)) {
     const auto now_ns = runtime::monotonic_ns();
+    const bool disarms = wanted.kind == crane_REQUEST_DISARM;  // obeyed at any age
     if (!model_.seat().renew(request.seat_key, now_ns))
       return answer(problem_answer(409, "take the controls first: one operator at a time"));
-    const auto tick = number_of<std::uint64_t>(
-        request.seen_tick, "X-Crane-Tick, the tick of the newest crane/supervisor (GET /api/tick)");
     // An interrupted connection can deliver a request late. The supervisor compares this tick with the last
-    // stop.
-    const auto seen = model_.situation().status_of(tick, now_ns);
-    if (!seen) return reply_with({false, "its sender has not seen the crane within the last 2 s"});
-    wanted.seen = *seen;
+    // stop. Without a supervisor, the answer of RequestSender names the remedy.
+    const auto seen = model_.situation().status_of(request.seen, now_ns);
+    if (!seen && !disarms && model_.situation().hears_supervisor(now_ns))
+      return reply_with(
+          {false, request.seen.empty()
+                      ? "the header X-Crane-Seen is missing: state the newest status that has arrived (GET "
+                        "/api/seen)"
+                      : "its sender has not seen the crane within the last 2 s"});
+    wanted.seen = seen.value_or(msg::Header{});
   }
   send_(wanted, reply_with);
 }

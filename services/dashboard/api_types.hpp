@@ -12,9 +12,8 @@ struct ApiRequest {
   std::string method, target;  ///< "GET", "/api/history?topic=crane/state"
   std::string content_type, body;
   std::string seat_key;  ///< header X-Crane-Seat
-  /// Header X-Crane-Tick: the tick of the newest crane/supervisor that the client has received.
-  std::string seen_tick;
-  Visitor visitor;  ///< its views must outlive the call
+  std::string seen;      ///< header X-Crane-Seen: the newest crane/supervisor that the client has received
+  Visitor visitor;       ///< its views must outlive the call
 };
 
 struct ApiAnswer {

@@ -68,7 +68,7 @@ void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
 void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   try {
     pending.ids.push_back(pending.ids.empty() ? client_.send(pending.wanted)
-                                              : client_.repeat(pending.wanted));
+                                              : client_.repeat(pending.wanted, pending.ids.size()));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {
     pending.repeat_ns = now_ns;

@@ -73,15 +73,15 @@ void Situation::add(const observation::Sample& sample) {
   }
 }
 
-std::optional<msg::Header> Situation::status_of(std::uint64_t tick, std::int64_t now_ns) const {
+std::optional<msg::Header> Situation::status_of(std::string_view seen, std::int64_t now_ns) const {
   const auto found = std::find_if(statuses_.rbegin(), statuses_.rend(),
-                                  [tick](const Arrived& arrived) { return arrived.header.tick == tick; });
+                                  [seen](const Arrived& arrived) { return mark_of(arrived.header) == seen; });
   if (found == statuses_.rend() || now_ns - found->arrival_ns > kSeen_ns) return std::nullopt;
   return found->header;
 }
 
 ordered_json Situation::json(std::int64_t now_ns) const {
-  if (!supervisor_ || now_ns - supervisor_ns_ > kSilent_ns)
+  if (!hears_supervisor(now_ns))
     return {
         {"heard", false},
         {"state", nullptr},
@@ -103,6 +103,10 @@ ordered_json Situation::json(std::int64_t now_ns) const {
                       {"axes", axes_of(*supervisor_, state)}};
   add_answers(result["answers"], *supervisor_, state);
   return result;
+}
+
+std::string mark_of(const msg::Header& header) {
+  return std::to_string(header.epoch) + "-" + std::to_string(header.tick);
 }
 
 std::string text_of(const ordered_json& json) {

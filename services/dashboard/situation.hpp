@@ -3,6 +3,8 @@
 #include <deque>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "observation/sample.hpp"
 
@@ -19,8 +21,13 @@ class Situation {
 
   /// Age at which a status becomes invalid as the status that an operator has seen; as in the supervisor.
   static constexpr std::int64_t kSeen_ns = 2'000'000'000;
-  /// @return header of the crane/supervisor of `tick`; nothing when none has arrived within kSeen_ns
-  [[nodiscard]] std::optional<msg::Header> status_of(std::uint64_t tick, std::int64_t now_ns) const;
+  /// @param seen  "EPOCH-TICK" of a crane/supervisor: a tick alone would also name a tick of another run
+  /// @return its header; nothing when it has not arrived within kSeen_ns
+  [[nodiscard]] std::optional<msg::Header> status_of(std::string_view seen, std::int64_t now_ns) const;
+  /// @return true when a crane/supervisor has arrived within kSilent_ns
+  [[nodiscard]] bool hears_supervisor(std::int64_t now_ns) const {
+    return supervisor_ && now_ns - supervisor_ns_ <= kSilent_ns;
+  }
 
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
   [[nodiscard]] const std::optional<msg::State>& state() const { return state_; }
@@ -35,6 +42,9 @@ class Situation {
   std::deque<Arrived> statuses_;                   ///< of the last kSeen_ns, oldest first
   std::int64_t supervisor_ns_ = 0, state_ns_ = 0;  ///< monotonic arrival
 };
+
+/// "EPOCH-TICK" of a sample.
+[[nodiscard]] std::string mark_of(const msg::Header& header);
 
 /// JSON text; bytes from the bus that are not valid UTF-8 are replaced.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);

@@ -66,9 +66,10 @@ std::string swinging_start(const msg::State& state) {
   return text.str();
 }
 
-/// @return a sentence when the request of `at_s` was sent at least two periods late
+/// @return a sentence when the request of `at_s` was sent at least 20 ms and two periods late
 std::optional<std::string> lateness(double at_s, double sent_s, double period_s) {
-  if (sent_s - at_s < 2 * period_s) return std::nullopt;
+  constexpr double kLate_s = 0.02;
+  if (sent_s - at_s < std::max(kLate_s, 2 * period_s)) return std::nullopt;
   std::ostringstream text;
   text << "the request of " << at_s << " s was sent " << sent_s - at_s
        << " s late: this program was suspended, or the computer was too busy";
@@ -99,6 +100,19 @@ std::string end_problem(const RealtimeSession& session, const configuration::Rig
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
 
 }  // namespace
+
+RealtimeRuns::End RealtimeRuns::observed_end(RealtimeSession& session, const configuration::Rig& rig,
+                                             bool load_at_rest) {
+  std::string problem;
+  try {
+    session.wait(100ms);  // the last states of the bridge
+    problem = end_problem(session, rig, load_at_rest);
+  } catch (const SessionError& error) {  // Ctrl-C: the completed run is kept
+    problem = error.what();
+  }
+  const msg::State& last = *session.state();
+  return {{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m}, problem};
+}
 
 RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
                               const experiment::Scenario& scenario) {
@@ -153,12 +167,7 @@ RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, 
   const bool at_rest = !real || !rig.has_load() || session.wait_for_rest(kPatience);
   session.disarm();
   children.stop();
-  if (real) {
-    session.wait(100ms);  // the last states of the bridge
-    const msg::State& last = *session.state();
-    end_ = End{{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m},
-               end_problem(session, rig, at_rest)};
-  }
+  if (real) end_ = observed_end(session, rig, at_rest);
   return run;
 }
 

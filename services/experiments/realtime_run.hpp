@@ -15,6 +15,8 @@
 
 namespace crane::experiments {
 
+class RealtimeSession;
+
 struct RealtimeRun {
   /// time_s is 0 when the crane is in HOLD at the start of the scenario.
   recording::Table table;
@@ -49,6 +51,9 @@ class RealtimeRuns {
     std::array<double, 3> position;  ///< trolley m, slew rad, cable length m
     std::string problem;             ///< reason why no further run may start; empty: none
   };
+  /// Call when the processes have ended.
+  [[nodiscard]] static End observed_end(RealtimeSession& session, const configuration::Rig& rig,
+                                        bool load_at_rest);
   [[nodiscard]] RealtimeRun run_from_start(const std::filesystem::path& rig_file,
                                            const std::string& controller,
                                            const experiment::Scenario& scenario);

@@ -72,7 +72,8 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
 
 void RealtimeSession::note_reset(const msg::SupervisorStatus& status) {
   if (!disarmed_) return;
-  taken_over_ = taken_over_ || (locked_ && is_reset(status));
+  const bool moves = status.move.number != move_number_;
+  taken_over_ = taken_over_ || moves || (locked_ && is_reset(status));
   locked_ = locked_ || status.state == crane_STATE_LOCKED;
 }
 

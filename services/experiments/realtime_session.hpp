@@ -90,7 +90,7 @@ class RealtimeSession {
   bool ends_at_stops_ = false, was_in_hold_ = false;
   bool disarmed_ = false;    ///< disarm() was called
   bool locked_ = false;      ///< the crane was LOCKED after disarm()
-  bool taken_over_ = false;  ///< another client has reset the crane after disarm()
+  bool taken_over_ = false;  ///< another client has reset or moved the crane after disarm()
 };
 
 /// Text of state, cause and remedy: "STOP_C1 because of SWING_LIMIT; remedy".

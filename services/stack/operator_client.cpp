@@ -46,16 +46,13 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted, bus::Publisher
   return request.id;
 }
 
-std::uint64_t OperatorClient::repeat(const OperatorRequest& wanted) {
+std::uint64_t OperatorClient::repeat(const OperatorRequest& wanted, std::size_t repetition) {
   const bool keys = bus_.options().credentials.has_value();
-  if (keys || !std::exchange(spare_is_next_, !spare_is_next_)) return send(wanted);
+  if (keys || repetition % 2 == 0) return send(wanted);
   if (!spare_ || spare_->ids.size() == kUnanswered)
     spare_ = Spare{.requests = bus_.publisher(topics::request)};
-  // A writer that the readers have not discovered yet is not replaced: discovery would begin again.
-  const bool discovered = spare_->requests.matched() >= requests_.matched();
-  const auto id = send(wanted, spare_->requests);
-  if (discovered) spare_->ids.push_back(id);
-  return id;
+  spare_->ids.push_back(send(wanted, spare_->requests));
+  return spare_->ids.back();
 }
 
 void OperatorClient::prefer_answered_writer(std::uint64_t id) {

@@ -44,13 +44,15 @@ class OperatorClient {
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
   /// Sends an unanswered request again, under a new id. Without keys, a forged packet can make readers skip
-  /// all later samples of a DDS writer. Therefore every other repetition goes through a spare writer. It is
-  /// replaced after kUnanswered repetitions that all readers could receive and that nobody answered. When a
-  /// repetition through it is answered, the two writers change places. With keys, the packet cannot be
-  /// forged, and all repetitions use one writer.
+  /// all later samples of a DDS writer. Therefore the repetitions with an odd number go through a spare
+  /// writer. It is replaced after kUnanswered unanswered repetitions. When a repetition through it is
+  /// answered, the two writers change places. With keys, the packet cannot be forged, and all repetitions use
+  /// one writer.
+  /// @param repetition  number of the repetition of this request, from 1
   /// @return id of the repetition
-  std::uint64_t repeat(const OperatorRequest& wanted);
-  static constexpr int kUnanswered = 2;
+  std::uint64_t repeat(const OperatorRequest& wanted, std::size_t repetition);
+  /// A spare writer of the dashboard exists for 1 s, the longest discovery between two DDS vendors.
+  static constexpr std::size_t kUnanswered = 5;
   /// The newest request of send(), without header and checksum, which the bus adds.
   [[nodiscard]] const msg::Request& last_sent() const { return last_sent_; }
   /// Sends a request that is always refused, because its id is 0 (kProbe). The reply proves that requests
@@ -68,7 +70,7 @@ class OperatorClient {
   /// Writer of every other repetition.
   struct Spare {
     bus::Publisher<msg::Request> requests;
-    std::vector<std::uint64_t> ids{};  ///< repetitions sent after all readers had discovered this writer
+    std::vector<std::uint64_t> ids{};  ///< of the repetitions
   };
   std::uint64_t send(const OperatorRequest& wanted, bus::Publisher<msg::Request>& writer);
   void prefer_answered_writer(std::uint64_t id);
@@ -76,7 +78,6 @@ class OperatorClient {
   bus::Bus& bus_;
   bus::Publisher<msg::Request> requests_;
   std::optional<Spare> spare_;
-  bool spare_is_next_ = true;
   bus::Subscriber<msg::Reply> replies_;
   std::string client_;
   std::uint64_t next_id_;

@@ -134,8 +134,8 @@ class Tuner {
       result_.motion_s += time_s->back();
     append(all_, motion.table);
     recording::write_csv(file(kMotionFile), all_);
-    require_every_tick(motion.table);
     std::ranges::copy(motion.differences, std::back_inserter(result_.differences));
+    require_every_tick(motion.table);
     return motion;
   }
 
@@ -193,7 +193,8 @@ class Tuner {
   }
 
   /// Writes the results so far, then throws TuningRefused.
-  [[noreturn]] void refuse(const std::vector<std::string>& reasons) {
+  [[noreturn]] void refuse(std::vector<std::string> reasons) {
+    std::ranges::copy(result_.differences, std::back_inserter(reasons));
     nlohmann::ordered_json json{{"refused", reasons}};
     if (identified_)
       json.update(to_json(result_, rig_));

@@ -9,7 +9,7 @@ namespace crane::supervisor {
 
 class BoardSelfTest {
  public:
-  /// Time after which the test has failed.
+  /// Duration of the received states after which the test has failed.
   static constexpr double kLongest_s = 2;
 
   /// @param period_s  duration of a tick, > 0

@@ -67,7 +67,7 @@ class ServerTest : public testing::Test {
     http::request<http::string_body> request{http::verb::post, target, 11, body.dump()};
     request.set(http::field::content_type, "application/json");
     request.set("X-Crane-Seat", seat);
-    if (!seen_tick_.empty()) request.set("X-Crane-Tick", seen_tick_);
+    if (!seen_by_client_.empty()) request.set("X-Crane-Seen", seen_by_client_);
     return exchange(request);
   }
   std::string metric(const std::string& name) {
@@ -114,11 +114,13 @@ class ServerTest : public testing::Test {
   void hear_tick(std::uint64_t tick, std::int64_t age_ns = 0) {
     server_.put({observation::status_at(runtime::monotonic_ns() - age_ns, crane_STATE_LOCKED,
                                         crane_CAUSE_START, tick)});
-    seen_tick_ = std::to_string(tick);
-    while (json::parse(get("/api/tick").body())["tick"] != tick) std::this_thread::yield();
+    const auto seen = [&] { return json::parse(get("/api/seen").body())["seen"]; };
+    const auto end = "-" + std::to_string(tick);
+    while (!seen().is_string() || !seen().get<std::string>().ends_with(end)) std::this_thread::yield();
+    seen_by_client_ = seen().get<std::string>();
   }
 
-  std::string seen_tick_;
+  std::string seen_by_client_;
   asio::io_context context_;
   std::atomic<int> requests_{0};
   msg::Header seen_{};  ///< of the last request

@@ -52,14 +52,14 @@ class Client {
     request.set(http::field::content_type, "application/json");
     if (!token.empty()) request.set(http::field::authorization, "Bearer " + token);
     request.set("X-Crane-Seat", seat);
-    if (!seat.empty()) request.set("X-Crane-Tick", tick());
+    if (!seat.empty()) request.set("X-Crane-Seen", seen());
     return ask(std::move(request));
   }
-  /// Tick of the newest status; empty: none has arrived.
-  std::string tick() {
-    if (get("/api/tick") != 200) return "";
+  /// Start-up number and tick of the newest status; empty: none has arrived.
+  std::string seen() {
+    if (get("/api/seen") != 200) return "";
     const auto digits = body_.find_first_of("0123456789");
-    return digits == std::string::npos ? "" : body_.substr(digits, body_.find('}') - digits);
+    return digits == std::string::npos ? "" : body_.substr(digits, body_.rfind('"') - digits);
   }
   unsigned upload(const std::string& name, const std::string& bytes, const std::string& token) {
     http::request<http::string_body> request{http::verb::post, "/api/uploads/" + name, 11, bytes};

@@ -48,7 +48,7 @@ TEST_F(DiscoveryAttack, ThatSilencesAnOperatorDoesNotSilenceItsRepetitions) {
     return std::ranges::any_of(
         repetitions, [&](auto id) { return client.take_reply(id, crane_SOURCE_SUPERVISOR).has_value(); });
   };
-  do repetitions.push_back(client.repeat({.kind = crane_REQUEST_ESTOP}));
+  do repetitions.push_back(client.repeat({.kind = crane_REQUEST_ESTOP}, repetitions.size() + 1));
   while (!stack_->until(answered, 100ms) && repetitions.size() < 20);
   std::cout << "answer after " << repetitions.size() << " repetitions\n";
   EXPECT_LT(repetitions.size(), 20U);

@@ -75,8 +75,9 @@ TEST(RealtimeRuns, NameARequestThatASuspensionOfTheProgramDelayed) {
   const std::string crane = crane_name();
   const auto short_run = directory / "short.toml";
   recording::put_contents(short_run,
-                          "description = \"a test\"\nduration_s = 1\n[start]\ntrolley_position_m = 0.3\n"
-                          "[[move]]\nat_s = 0.5\ntrolley_position_m = 0.35\n");
+                          "description = \"a test\"\nduration_s = 1\n"
+                          "[[move]]\nat_s = 0.1\ntrolley_position_m = 0.3\n"
+                          "[[move]]\nat_s = 0.6\ntrolley_position_m = 0.35\n");
   ProgramRun run{stack::program_directory() / "crane",
                  {"run", short_run.string(), "--clock", "realtime", "--out", (directory / "out").string(),
                   "--domain", std::to_string(kDomain), "--crane", crane}};
@@ -84,13 +85,12 @@ TEST(RealtimeRuns, NameARequestThatASuspensionOfTheProgramDelayed) {
   const auto is = [](crane_SupervisorState state) {
     return [state](const auto& status) { return status.state == state; };
   };
-  ASSERT_TRUE(watcher.until(is(crane_STATE_RUN), 30s));  // move to the start of the scenario
-  ASSERT_TRUE(watcher.until(is(crane_STATE_HOLD), 30s));
+  ASSERT_TRUE(watcher.until(is(crane_STATE_RUN), 30s));  // the first request has been sent
   ::kill(run.pid(), SIGSTOP);
-  EXPECT_FALSE(watcher.until(is(crane_STATE_RUN), 2s));
+  EXPECT_FALSE(watcher.until(is(crane_STATE_FAULT), 2s));
   ::kill(run.pid(), SIGCONT);
   EXPECT_EQ(run.wait(30s), 0);
-  EXPECT_THAT(run.errors(), testing::ContainsRegex("warning: the request of 0.5 s was sent .* s late"));
+  EXPECT_THAT(run.errors(), testing::ContainsRegex("warning: the request of 0.6 s was sent .* s late"));
   EXPECT_TRUE(std::filesystem::exists(directory / "out" / "run.csv"));
 }
 

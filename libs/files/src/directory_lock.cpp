@@ -12,7 +12,7 @@
 namespace crane::files {
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
-    : descriptor_{::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
+    : descriptor_{::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
   if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) == 0) return;
   const auto reason = std::generic_category().message(errno);
   if (descriptor_ >= 0) ::close(descriptor_);

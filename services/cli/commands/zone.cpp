@@ -90,7 +90,7 @@ template <class Change>
 void rewrite(const ZoneOptions& options, const std::filesystem::path& rig, Change change) {
   const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
   if (!options.out.empty()) require_new(target, options.force);
-  const files::DirectoryLock lock{target.parent_path()};
+  const files::DirectoryLock lock{std::filesystem::weakly_canonical(target).parent_path()};
   const auto text = change(configuration::file_text(rig), rig.string());
   files::write_file(target, configuration::moved(text, rig, target));
   std::cout << target.string() << ": written; it takes effect when the stack starts again\n";

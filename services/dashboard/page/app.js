@@ -49,7 +49,7 @@ window.addEventListener("hashchange", show);
 show();
 
 link.listen("dashboard/situation", (situation) => desk.update({ situation }));
-link.listen("crane/supervisor", (sample) => { desk.tick = sample.get("header.tick"); });
+link.listen("crane/supervisor", (sample) => { desk.seen = `${sample.get("header.epoch")}-${sample.get("header.tick")}`; });
 link.listen("dashboard/operator", ({ operator }) => desk.update({ holder: operator }));
 link.addEventListener("change", () => {
   find("link-state").dataset.state = link.state;

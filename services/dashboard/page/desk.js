@@ -8,7 +8,7 @@ export class Desk extends EventTarget {
   situation = null;
   holder = null;
   waiting = new Set(); // requests without an answer yet
-  tick = null; // of the newest crane/supervisor that this page has received
+  seen = ""; // the newest crane/supervisor that this page has received
   #key = sessionStorage.getItem("crane-seat") ?? "";
   #token = sessionStorage.getItem("crane-token") ?? "";
 
@@ -27,7 +27,7 @@ export class Desk extends EventTarget {
   async #send(path, type, body) {
     const headers = { "Content-Type": type, "X-Crane-Seat": this.#key };
     if (this.#token) headers.Authorization = "Bearer " + this.#token;
-    if (this.tick !== null) headers["X-Crane-Tick"] = String(this.tick); // a request that arrives late is refused
+    if (this.seen) headers["X-Crane-Seen"] = this.seen; // a request that arrives late is refused
     try {
       const answer = await fetch(path, { method: "POST", headers, body });
       return { ok: answer.ok, status: answer.status, ...(await answer.json()) };

@@ -24,6 +24,7 @@ struct Conditions {
   unsigned latest_step = 0;     ///< largest delay of a row after its tick, in steps of 1/20 tick
   double disturbance_v = 0.02;  ///< rms, correlation time 1 s
   double command_hz = 0;        ///< frequency of the command beside a slow sine; 0: random commands
+  bool controlled = false;      ///< a controller follows random targets
 };
 
 /// A drive axis with viscous friction under random commands. @param extra_v additional voltage, of time,
@@ -38,9 +39,11 @@ PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned see
   run.name = "run " + std::to_string(seed);
   run.period_s = kTick_s;
   const double gain = rig.plant.trolley_gain_mps2pv;
-  double x = 0, v = 0, u = 0, push = 0;
+  double x = 0, v = 0, u = 0, push = 0, target = 0;
   for (int k = 0; k < duration_s / kTick_s; ++k) {
     if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
+    if (k % 200 == 0) target = 0.3 * normal(random);
+    if (conditions.controlled) u = 6 * (target - x) - 3 * v;
     if (conditions.command_hz > 0) {
       const double turn = 2 * std::numbers::pi * kTick_s * k;
       u = 0.5 * std::sin(conditions.command_hz * turn) + 0.3 * std::sin(0.27 * turn);
@@ -75,7 +78,8 @@ struct Left {
 
 Left left_in(const Runs& runs, const configuration::Rig& rig) {
   const Pieces pieces = pieces_of(runs, replays_of(runs, {rig.plant, rig.terms}), kTrolleyPosition);
-  return {find_unexplained(pieces), find_force_line(pieces, 1), find_jumps(pieces)};
+  return {find_unexplained(pieces), find_force_line(pieces, 1, rig.plant.trolley_gain_mps2pv),
+          find_jumps(pieces)};
 }
 
 template <class Extra>
@@ -208,6 +212,19 @@ TEST(Unexplained, PeriodicForceBesideAPeriodicCommandIsALine) {
   const Left left = left_in({moved(rig, 20, 1, shaken, periodic), moved(rig, 20, 2, shaken, periodic)}, rig);
   ASSERT_TRUE(left.line);
   EXPECT_NEAR(left.line->hz, 1.1, 0.03);
+}
+
+/// The controller answers the force with a command of the same frequency.
+TEST(Unexplained, PeriodicForceOnAControlledAxisIsALine) {
+  const configuration::Rig rig = axis_with_viscous_friction();
+  const auto shaken = [](double t, double, double) {
+    return 0.05 * std::sin(2 * std::numbers::pi * 0.9 * t);
+  };
+  const Conditions controlled{.controlled = true};
+  const Left left =
+      left_in({moved(rig, 30, 1, shaken, controlled), moved(rig, 30, 2, shaken, controlled)}, rig);
+  ASSERT_TRUE(left.line);
+  EXPECT_NEAR(left.line->hz, 0.9, 0.03);
 }
 
 TEST(Unexplained, BrakeThatGripsIntermittentlyIsAJumpOfTheSpeed) {

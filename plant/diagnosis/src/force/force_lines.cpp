@@ -26,60 +26,65 @@ constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
 /// Level of the test whether the command of a run has a line.
 constexpr double kCommandLevel = 0.01;
+/// Least force of a line whose frequency the command contains, as a share of the command. The command of a
+/// controller that answers the force is at most twice the force (complementary sensitivity).
+constexpr double kLeastOfCommand = 0.5;
 /// Share of the loss below which a line has no consequence for the crane.
 constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
 /// A force of one frequency: cosine and sine on each piece. Each run has its own phase.
 struct Line {
   double hz = 0;
-  std::vector<std::optional<NormalEquations>> pieces;  ///< nothing: the commands of the run have this line
+  std::vector<std::optional<NormalEquations>> pieces;  ///< nothing: the run is omitted
 };
 
 double turn_per_row(const Run& run, double hz) { return 2 * std::numbers::pi * hz * run.period_s; }
 
-/// True when the amplitudes of a command at `hz` have similar phases in all pieces of the run (Rayleigh
-/// test). A force of this frequency can then be a function of the motion, for example friction whose form
-/// differs.
-bool commands_have_line(const Pieces& pieces, std::size_t run_index, double hz) {
+/// Amplitude of the command at `hz` if its Fourier components have similar phases in all pieces of the run
+/// (Rayleigh test), else 0. V
+double commanded_v(const Pieces& pieces, std::size_t run_index, double hz) {
   const double most = -std::log(kCommandLevel);  // of random phases: exponentially distributed, mean 1
   const Run& run = (*pieces.runs)[run_index].run;
-  std::array<std::complex<double>, plant::kAxes> sum{};
-  std::array<double, plant::kAxes> squares{};
+  const std::size_t axis = pieces.output == kSlewAngle ? plant::kSlew : plant::kTrolley;
+  std::complex<double> sum = 0;
+  double squares = 0, rows = 0;
   for (const Piece& piece : pieces.all) {
     if (piece.run != run_index) continue;
-    std::array<std::complex<double>, plant::kAxes> amplitude{};
-    for (std::size_t k = piece.first; k < piece.first + piece.rows; ++k) {
-      const auto wave = std::polar(1.0, -turn_per_row(run, hz) * static_cast<double>(k));
-      for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
-        amplitude[axis] += run.command_v[k][axis] * wave;
-    }
-    for (std::size_t axis = 0; axis < plant::kAxes; ++axis) {
-      sum[axis] += amplitude[axis];
-      squares[axis] += std::norm(amplitude[axis]);
-    }
+    std::complex<double> component = 0;
+    for (std::size_t k = piece.first; k < piece.first + piece.rows; ++k)
+      component += run.command_v[k][axis] * std::polar(1.0, -turn_per_row(run, hz) * static_cast<double>(k));
+    sum += component;
+    squares += std::norm(component);
+    rows += static_cast<double>(piece.rows);
   }
-  for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
-    if (std::norm(sum[axis]) > most * squares[axis]) return true;
-  return false;
+  return std::norm(sum) > most * squares ? 2 * std::abs(sum) / rows : 0;
+}
+
+/// Omits the runs whose force can be a function of a periodic motion, for example friction whose form differs
+/// from that of the model: the command contains the line, and the force is much smaller than the command. A
+/// controller that answers an external force commands about as much as this force.
+void omit_commanded(const Pieces& pieces, double volt_acceleration, Line& line) {
+  std::map<std::size_t, NormalEquations> by_run;
+  for (std::size_t i = 0; i < line.pieces.size(); ++i)
+    by_run.try_emplace(pieces.all[i].run, NormalEquations{2}).first->second += *line.pieces[i];
+  for (const auto& [run, sums] : by_run) {
+    const double least = kLeastOfCommand * volt_acceleration * commanded_v(pieces, run, line.hz);
+    if (wave_amplitude(sums).norm() >= least) continue;
+    for (std::size_t i = 0; i < line.pieces.size(); ++i)
+      if (pieces.all[i].run == run) line.pieces[i].reset();
+  }
 }
 
 Line line_at(const Pieces& pieces, double hz) {
   Line line{hz, {}};
-  std::map<std::size_t, bool> commanded;
   for (const Piece& piece : pieces.all) {
-    const auto [known, fresh] = commanded.try_emplace(piece.run, false);
-    if (fresh) known->second = commands_have_line(pieces, piece.run, hz);
-    if (known->second) {
-      line.pieces.emplace_back();
-      continue;
-    }
     const double turn = turn_per_row((*pieces.runs)[piece.run].run, hz);
     MatrixXd waves(static_cast<Index>(piece.rows), 2);
     for (Index k = 0; k < waves.rows(); ++k) {
       const double phase = turn * static_cast<double>(static_cast<Index>(piece.first) + k);
       waves(k, 0) = std::cos(phase), waves(k, 1) = std::sin(phase);
     }
-    line.pieces.push_back(normal_equations(pieces, piece, std::move(waves)));
+    line.pieces.emplace_back(normal_equations(pieces, piece, std::move(waves)));
   }
   return line;
 }
@@ -141,12 +146,14 @@ double largest_by_sign_flips(const Pieces& pieces, const std::vector<Line>& line
 
 }  // namespace
 
-std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed) {
+std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed,
+                                           double volt_acceleration) {
   if (pieces.all.empty()) return std::nullopt;
   const double loss = pieces.loss(), least = pieces.of_load() ? kLineOfLoad : kLineOfDrives;
   std::vector<Line> lines(static_cast<std::size_t>((kHighest_hz - kLowest_hz) / kSpacing_hz));
   parallel_for(lines.size(), [&](std::size_t i) {
     lines[i] = line_at(pieces, kLowest_hz + kSpacing_hz * static_cast<double>(i));
+    if (volt_acceleration > 0) omit_commanded(pieces, volt_acceleration, lines[i]);
   });
   const Found found =
       cross_validated_line(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));

@@ -60,6 +60,12 @@ double weakest(const Effects& effects, const std::vector<double>& explained, con
   return least;
 }
 
+/// Acceleration of the axis per volt of its command, m/s^2/V or rad/s^2/V.
+double volt_acceleration(const Study& study, Output axis) {
+  const auto parameters = study.with({}).parameters;
+  return axis == kSlewAngle ? parameters.slew_gain_radps2pv : parameters.trolley_gain_mps2pv;
+}
+
 }  // namespace
 
 bool oscillates(const Study& study, const Effects& effects) {
@@ -91,7 +97,7 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
     };
     for (const Unexplained& pattern : find_unexplained(pieces)) add(pattern);
     if (!oscillating)
-      if (const auto line = find_force_line(pieces, seed)) add(*line);
+      if (const auto line = find_force_line(pieces, seed, volt_acceleration(study, axis))) add(*line);
     const bool loses = std::any_of(losing.begin(), losing.end(),
                                    [&](const LosingEncoder& encoder) { return encoder.axis == axis; });
     if (!loses)
