@@ -156,7 +156,8 @@ RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, 
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (const Action& action : actions_of(scenario)) {
     session.wait_for_sample(zero_ns + ns(action.at_s), kLate);
-    const double sent_s = 1e-9 * static_cast<double>(session.state()->header.sample_time_ns - zero_ns);
+    // The bridge runs on this computer and stamps its states with the same clock.
+    const double sent_s = 1e-9 * static_cast<double>(runtime::monotonic_ns() - zero_ns);
     if (auto late = lateness(action.at_s, sent_s, rig.period_s)) run.differences.push_back(*std::move(late));
     session.request(action.wanted, action.wanted.kind == crane_REQUEST_MOVE ? "move" : "follow");
   }

@@ -114,8 +114,8 @@ bool RealtimeSession::until(Condition condition, std::chrono::nanoseconds patien
   while (!condition()) {
     const auto left_ns = deadline_ns - runtime::monotonic_ns();
     if (left_ns <= 0) {
-      // Samples that arrived while this program was suspended are still to be taken.
-      take(std::chrono::nanoseconds{0});
+      // After a suspension of this program, the middleware still delivers the samples that arrived meanwhile.
+      take(std::chrono::milliseconds{20});
       return condition();
     }
     take(std::chrono::nanoseconds{std::min<std::int64_t>(left_ns, 20'000'000)});

@@ -10,7 +10,8 @@ namespace crane::diagnosis {
 /// The strongest line, cross-validated; nothing below a share of the loss, or if one of 99 random sign flips
 /// of the pieces gives as strong a line.
 /// @param seed of the sign flips
-/// @param volt_acceleration  of a drive per volt of its command, m/s^2/V or rad/s^2/V. A run is omitted from a
+/// @param volt_acceleration  of a drive per volt of its command, m/s^2/V or rad/s^2/V. A run is omitted from
+/// a
 ///   line that its command contains if the force is much smaller than the command. 0: no run is omitted
 [[nodiscard]] std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed,
                                                          double volt_acceleration = 0);
