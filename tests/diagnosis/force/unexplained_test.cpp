@@ -42,8 +42,10 @@ PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned see
   double x = 0, v = 0, u = 0, push = 0, target = 0;
   for (int k = 0; k < duration_s / kTick_s; ++k) {
     if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
-    if (k % 200 == 0) target = 0.3 * normal(random);
-    if (conditions.controlled) u = 6 * (target - x) - 3 * v;
+    if (conditions.controlled) {
+      if (k % 200 == 0) target = 0.3 * normal(random);
+      u = 6 * (target - x) - 3 * v;
+    }
     if (conditions.command_hz > 0) {
       const double turn = 2 * std::numbers::pi * kTick_s * k;
       u = 0.5 * std::sin(conditions.command_hz * turn) + 0.3 * std::sin(0.27 * turn);
