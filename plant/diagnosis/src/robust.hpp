@@ -17,6 +17,11 @@ inline constexpr double kMeanLoss = 0.874;
 /// Mean of e^2 W(e) of a standard normal residual e. At the true scale, the mean of loss / kLossPerDeviance
 /// decreases by 1 per unit of ln(variance): its sum with ln(variance) is stationary.
 inline constexpr double kLossPerDeviance = 0.776;
+/// Of standard normal residuals: curvature of half the loss, E[(e W(e))'] = E[e^2 W(e)] (C. M. Stein, Ann.
+/// Statist. 9 (1981) 1135), over the mean weight E[W(e)] = 1 - E[e^2 W(e)] / 9.
+inline constexpr double kCurvaturePerWeight = kLossPerDeviance / (1 - kLossPerDeviance / kCauchyScaleSquared);
+/// Of standard normal residuals: variance of the score, E[(e W(e))^2] = 0.620, over the curvature.
+inline constexpr double kScorePerCurvature = 0.620 / kLossPerDeviance;
 
 /// In noise variances.
 [[nodiscard]] inline double loss_of(double e) {

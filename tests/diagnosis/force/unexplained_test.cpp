@@ -255,12 +255,13 @@ TEST(Unexplained, EncoderThatLosesCountsIsAJumpOfThePosition) {
   EXPECT_THAT(left.jumps->variable, testing::StartsWith("trolley: jumps of the position"));
 }
 
-/// Forty data sets from fixed seeds: at least 35 true values are within two standard deviations, which are at
-/// most 1.5 %.
+/// At least 72 of 80 true values are within two standard deviations, which are at most 1.5 %. With a
+/// probability of 95 %, fewer are inside in 1 % of such tests. The disturbance correlates over neighbouring
+/// blocks.
 TEST(Intervals, ContainTheTruthAndAreNarrow) {
   configuration::Rig rig = axis_with_viscous_friction();
   rig.terms.clear();
-  constexpr int kBodies = 40;
+  constexpr int kBodies = 80;
   int inside = 0;
   double width = 0;
   for (unsigned seed = 10; seed < 10 + kBodies; ++seed) {
@@ -275,7 +276,7 @@ TEST(Intervals, ContainTheTruthAndAreNarrow) {
     inside += std::abs(error) <= 2 * fitted.std_dev[0] ? 1 : 0;
     width += fitted.std_dev[0] / kViscous_vspm / kBodies;
   }
-  EXPECT_GE(inside, 35);
+  EXPECT_GE(inside, 72);
   EXPECT_LT(width, 0.015);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A laboratory whose amplifier limits its output or the rate of its output. One drive with set-valued
 /// Coulomb friction, computed without code of the project:
-///   x'' = K (w + a sin(2 pi x / l) - c sgn(x') - b x'),   |w| <= limit,   |w'| <= rate,   w follows the
-///   command u
+///   x'' = K (w + a sin(2 pi x / l) - (c + mu |w|) sgn(x') - b x'),   |w| <= limit,   |w'| <= rate,   w
+///   follows the command u
 /// Impulses of friction in steps of 0.1 ms: the axis sticks exactly.
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,7 @@ struct Axis {
   Amplifier amplifier;
   double disturbance_v = 0;              ///< standard deviation, first order, 0.5 s
   double wave_v = 0, wave_length_m = 1;  ///< a and l
+  double gear_share = 0;                 ///< mu
 };
 
 inline double wave_of(const Axis& axis, double x) {
@@ -61,7 +62,7 @@ inline recording::Table recorded_axis(const Axis& axis, double duration_s, std::
     w += std::clamp(std::clamp(command_v, -axis.amplifier.limit_v, axis.amplifier.limit_v) - w, -step_v,
                     step_v);
     v += kStep_s * axis.gain_mps2pv * (w + push_v + wave_of(axis, x) - axis.viscous_vspm * v);
-    const double brake = kStep_s * axis.gain_mps2pv * axis.coulomb_v;
+    const double brake = kStep_s * axis.gain_mps2pv * (axis.coulomb_v + axis.gear_share * std::abs(w));
     v -= std::clamp(v, -brake, brake);
     x += kStep_s * v;
   }

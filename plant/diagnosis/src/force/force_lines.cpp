@@ -5,10 +5,9 @@
 #include <complex>
 #include <map>
 #include <numbers>
-#include <random>
 #include <sstream>
 
-#include "force/normal_equations.hpp"
+#include "force/cross_validation.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
 
@@ -20,10 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Spacing: half the width of a line in 40 s.
+/// Frequencies of the lines. Spacing: half the resolution 1 / 40 s.
 constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
-constexpr std::size_t kLineFolds = 4;
-constexpr std::size_t kLineFlips = 99;
 /// Level of the test whether the command of a run has a line.
 constexpr double kCommandLevel = 0.01;
 /// Least force of a line whose frequency the command contains, as a share of the command. The command of a
@@ -61,8 +58,8 @@ double commanded_v(const Pieces& pieces, std::size_t run_index, double hz) {
 }
 
 /// Omits the runs whose force can be a function of a periodic motion, for example friction whose form differs
-/// from that of the model: the command contains the line, and the force is much smaller than the command. A
-/// controller that answers an external force commands about as much as this force.
+/// from that of the model: the command contains the line, and the force is below kLeastOfCommand times the
+/// command.
 void omit_commanded(const Pieces& pieces, double volt_acceleration, Line& line) {
   std::map<std::size_t, NormalEquations> by_run;
   for (std::size_t i = 0; i < line.pieces.size(); ++i)
@@ -96,7 +93,7 @@ ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& sign
                     bool inside) {
   ByRun sums;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
-    if (!line.pieces[i] || (i % kLineFolds == fold) != inside) continue;
+    if (!line.pieces[i] || (i % kFolds == fold) != inside) continue;
     auto [of_run, fresh] = sums.try_emplace(pieces.all[i].run, NormalEquations{2});
     of_run->second.score += signs[static_cast<Index>(i)] * line.pieces[i]->score;
     of_run->second.hessian += line.pieces[i]->hessian;
@@ -104,43 +101,42 @@ ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& sign
   return sums;
 }
 
-/// Cross-validated gain of the best line: for each fold, the other folds determine frequency and amplitude.
-struct Found {
-  double gain = 0, hz = 0;
-};
-Found cross_validated_line(const Pieces& pieces, const std::vector<Line>& lines, const VectorXd& signs) {
-  Found found;
-  for (std::size_t fold = 0; fold < kLineFolds; ++fold) {
-    const Line* best = nullptr;
-    double most = 0;
-    for (const Line& line : lines) {
-      double gain = 0;
-      for (const auto& [run, sums] : summed_by_run(pieces, line, signs, fold, false))
-        gain += sums.score.dot(wave_amplitude(sums));
-      if (gain > most) most = gain, best = &line;
-    }
-    if (best == nullptr) continue;
-    const ByRun others = summed_by_run(pieces, *best, signs, fold, false);
-    for (const auto& [run, own] : summed_by_run(pieces, *best, signs, fold, true)) {
+/// The line with the largest gain outside a fold; fold kFolds: in all pieces. Null: no line has a gain.
+const Line* strongest_outside(std::size_t fold, const Pieces& pieces, const std::vector<Line>& lines,
+                              const VectorXd& signs) {
+  const Line* strongest = nullptr;
+  double most = 0;
+  for (const Line& line : lines) {
+    double gain = 0;
+    for (const auto& [run, sums] : summed_by_run(pieces, line, signs, fold, false))
+      gain += sums.score.dot(wave_amplitude(sums));
+    if (gain > most) most = gain, strongest = &line;
+  }
+  return strongest;
+}
+
+/// Gain of a line of which the pieces outside each fold determine frequency and amplitude.
+double line_gain(const Pieces& pieces, const std::vector<Line>& lines, const VectorXd& signs) {
+  double gain = 0;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    const Line* line = strongest_outside(fold, pieces, lines, signs);
+    if (line == nullptr) continue;
+    const ByRun others = summed_by_run(pieces, *line, signs, fold, false);
+    for (const auto& [run, own] : summed_by_run(pieces, *line, signs, fold, true)) {
       const auto known = others.find(run);
       if (known == others.end()) continue;
-      const Vector2d x = wave_amplitude(known->second);
-      found.gain += own.gain(x);
+      const Vector2d amplitude = wave_amplitude(known->second);
+      gain += own.gain(amplitude);
     }
-    found.hz = best->hz;
   }
-  return found;
+  return gain;
 }
 
 /// Largest gain under random signs of the pieces.
 double largest_by_sign_flips(const Pieces& pieces, const std::vector<Line>& lines, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::vector<VectorXd> signs(kLineFlips, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
-  for (VectorXd& flip : signs)
-    for (double& sign : flip) sign = (random() & 1U) != 0U ? 1.0 : -1.0;
-  std::vector<double> gains(kLineFlips);
-  parallel_for(kLineFlips,
-               [&](std::size_t i) { gains[i] = cross_validated_line(pieces, lines, signs[i]).gain; });
+  const std::vector<VectorXd> signs = random_signs(static_cast<Index>(pieces.all.size()), seed);
+  std::vector<double> gains(signs.size());
+  parallel_for(signs.size(), [&](std::size_t i) { gains[i] = line_gain(pieces, lines, signs[i]); });
   return *std::max_element(gains.begin(), gains.end());
 }
 
@@ -155,15 +151,15 @@ std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t s
     lines[i] = line_at(pieces, kLowest_hz + kSpacing_hz * static_cast<double>(i));
     if (volt_acceleration > 0) omit_commanded(pieces, volt_acceleration, lines[i]);
   });
-  const Found found =
-      cross_validated_line(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
-  if (found.gain < least * loss || found.gain <= largest_by_sign_flips(pieces, lines, seed))
-    return std::nullopt;
+  const VectorXd as_measured = VectorXd::Ones(static_cast<Index>(pieces.all.size()));
+  const double gain = line_gain(pieces, lines, as_measured);
+  if (gain < least * loss || gain <= largest_by_sign_flips(pieces, lines, seed)) return std::nullopt;
+  const double hz = strongest_outside(kFolds, pieces, lines, as_measured)->hz;
   std::ostringstream name;
   name.precision(3);
-  name << kOutputNames[pieces.output] << ": time, " << found.hz << " Hz";
-  Unexplained line{name.str(), GoesWith::frequency, pieces.output, found.gain, found.gain / loss};
-  line.hz = found.hz;
+  name << kOutputNames[pieces.output] << ": time, " << hz << " Hz";
+  Unexplained line{name.str(), GoesWith::frequency, pieces.output, gain, gain / loss};
+  line.hz = hz;
   return line;
 }
 

@@ -7,12 +7,12 @@
 
 namespace crane::diagnosis {
 
-/// The strongest line, cross-validated; nothing below a share of the loss, or if one of 99 random sign flips
-/// of the pieces gives as strong a line.
+/// The strongest line. Nothing if its cross-validated gain is below a share of the loss, or if one of 99
+/// random sign flips of the pieces has as large a gain.
 /// @param seed of the sign flips
-/// @param volt_acceleration  of a drive per volt of its command, m/s^2/V or rad/s^2/V. A run is omitted from
-/// a
-///   line that its command contains if the force is much smaller than the command. 0: no run is omitted
+/// @param volt_acceleration  acceleration of a drive per volt of its command, m/s^2/V or rad/s^2/V. A run is
+///   omitted from a line that its command contains if the force is small beside the command
+///   (docs/diagnosis.md, 8). 0: no run is omitted
 [[nodiscard]] std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed,
                                                          double volt_acceleration = 0);
 

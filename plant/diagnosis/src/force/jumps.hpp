@@ -6,8 +6,8 @@
 
 namespace crane::diagnosis {
 
-/// The strongest jump of position or speed of each piece. Nothing unless kFewestJumpingPieces exceed
-/// kClearJumpStatistic.
+/// Jumps of position or speed. Nothing unless the strongest jumps of at least kFewestJumpingPieces pieces
+/// have a statistic of at least kClearJumpStatistic.
 /// @param pieces of a drive
 [[nodiscard]] std::optional<Unexplained> find_jumps(const Pieces& pieces);
 

@@ -19,7 +19,7 @@ constexpr double kLowestBand_hz = 0.3, kHighestBand_hz = 4, kBandSpacing_hz = 0.
 
 /// Fit of one wave per window, with a phase of its own.
 struct Waves {
-  double power = 0;  ///< mean gain of an amplitude, noise variances
+  double power = 0;  ///< P(f): decrease of the loss per amplitude, noise variances
   double loss = 0;   ///< decrease of the loss
   double squares_rad2 = 0;
 };

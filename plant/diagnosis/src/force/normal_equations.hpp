@@ -4,7 +4,8 @@
 
 namespace crane::diagnosis {
 
-/// score = J' W e, hessian = J' W J (Gauss-Newton).
+/// score = J' W e, hessian = J' W J (Gauss-Newton): J whitened responses, e whitened residual, W its robust
+/// weights.
 struct NormalEquations {
   explicit NormalEquations(Eigen::Index patterns = 0)
       : score(Eigen::VectorXd::Zero(patterns)), hessian(Eigen::MatrixXd::Zero(patterns, patterns)) {}
@@ -19,7 +20,7 @@ struct NormalEquations {
 /// Least-squares amplitudes of cosine and sine.
 [[nodiscard]] Eigen::Vector2d wave_amplitude(const NormalEquations& wave);
 
-/// The equations of the patterns after the first `known`, with the known patterns fitted at any amplitude.
+/// Eliminates the first `known` patterns (Schur complement). @return equations of the other patterns
 [[nodiscard]] NormalEquations beside_first(const NormalEquations& all, Eigen::Index known);
 
 /// @param response of the piece's residual, row x pattern

@@ -20,8 +20,8 @@ using Eigen::Vector2d;
 constexpr std::size_t kLines = 200;
 /// Distance of lines, in 1 / travel.
 constexpr double kLineSpacing = 0.5;
-/// Longest wave: one over the travel, 2 line spacings. A longer wave has the shape of a position force. The
-/// first line is one spacing below, because a peak is above both neighbours.
+/// In half waves over the travel. A peak needs a weaker neighbour on each side: the longest wave that can be
+/// found is one wave over the travel (line 2). A longer wave has the shape of a position force.
 constexpr double kFirstLine = 1;
 /// Number of lines whose responses are filtered together.
 constexpr std::size_t kGroup = 8;
@@ -37,9 +37,9 @@ struct Wave {
 
 /// Forces of the quantities of a drive that a rig file states inaccurately: offset, Coulomb friction, viscous
 /// friction, gain. Each changes with the direction or the speed, and therefore from place to place like a
-/// long wave. The force by a wrong gain is the measured acceleration beside the frictions; the command is not
-/// used, because a controller that works against the wave makes the command contain the wave. Responses by
-/// piece.
+/// long wave. A wrong gain causes a force in proportion to the measured acceleration. The command is not
+/// used: the command of a controller that works against the wave contains the wave. @return responses by
+/// piece
 std::vector<MatrixXd> responses_of_known_forces(const Pieces& drive) {
   std::vector<MatrixXd> responses;
   for (const Piece& piece : drive.all) {

@@ -1,11 +1,12 @@
 #include "force/swing_patterns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
-#include <random>
 
-#include "force/normal_equations.hpp"
+#include "force/bins.hpp"
+#include "force/cross_validation.hpp"
 #include "force/swing_under.hpp"
 #include "force/swing_variables.hpp"
 #include "parallel.hpp"
@@ -22,20 +23,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kSwingFolds = 4;
-constexpr std::size_t kSwingFlips = 99;  ///< the largest of 99 is exceeded with a probability of 1 %
-
 /// Values of the bins, row x bin.
 MatrixXd shapes_in(std::size_t window, std::size_t rows, const SwingVariable& variable, const Extent& range) {
-  const auto last = static_cast<double>(variable.bins - 1);
-  MatrixXd shapes = MatrixXd::Zero(static_cast<Index>(rows), static_cast<Index>(variable.bins));
+  MatrixXd shapes(static_cast<Index>(rows), static_cast<Index>(variable.bins));
   for (Index k = 0; k < shapes.rows(); ++k) {
     const auto row = static_cast<std::size_t>(k);
     const double share = (variable.value[window][row] - range.low) / range.width();
-    const double at = last * std::clamp(share, 0.0, 1.0);
-    for (Index bin = 0; bin < shapes.cols(); ++bin)
-      shapes(k, bin) =
-          variable.factor[window][row] * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
+    shapes.row(k) = variable.factor[window][row] * triangular_bins(share, variable.bins);
   }
   return shapes;
 }
@@ -76,8 +70,8 @@ class PatternTests {
       for (const double value : run) test.range.take(value);
     NormalEquations all{static_cast<Index>(test.variable.bins)};
     for (std::size_t w = 0; w < pieces_.all.size(); ++w) add_blocks(test, w, all);
-    const double ridge = 1e-3 * all.hessian.trace() / static_cast<double>(test.variable.bins) + 1e-12;
-    for (std::size_t fold = 0; fold < kSwingFolds; ++fold) {
+    const double ridge = ridge_of(all);
+    for (std::size_t fold = 0; fold < kFolds; ++fold) {
       NormalEquations others = all;
       for (std::size_t b = 0; b < test.blocks.size(); ++b)
         if (fold_of(b, test) == fold) others -= test.blocks[b];
@@ -89,12 +83,11 @@ class PatternTests {
     return test;
   }
 
-  /// Cross-validated decrease of the loss with signs of the blocks; 0 unless all folds but one have a gain.
+  /// Cross-validated decrease of the loss with signs of the blocks.
   [[nodiscard]] double gain(const Tested& test, const VectorXd& signs) const {
     const auto bins = static_cast<Index>(test.variable.bins);
-    double gain = 0;
-    std::size_t agreeing = 0;
-    for (std::size_t fold = 0; fold < kSwingFolds; ++fold) {
+    std::array<double, kFolds> gains{};
+    for (std::size_t fold = 0; fold < kFolds; ++fold) {
       NormalEquations own{bins};
       VectorXd score = VectorXd::Zero(bins);
       for (std::size_t b = 0; b < test.blocks.size(); ++b) {
@@ -106,11 +99,9 @@ class PatternTests {
         own.score += sign * test.blocks[b].score;
         own.hessian += test.blocks[b].hessian;
       }
-      const double gained = own.gain(test.others[fold].solve(score));
-      gain += gained;
-      agreeing += gained > 0 ? 1 : 0;
+      gains[fold] = own.gain(test.others[fold].solve(score));
     }
-    return agreeing + 1 >= kSwingFolds ? gain : 0;
+    return gain_of_folds(gains);
   }
 
   [[nodiscard]] double rms(const Tested& test) const {
@@ -128,7 +119,7 @@ class PatternTests {
  private:
   /// Folds are consecutive blocks: a pattern must hold in parts of the data that are apart in time.
   [[nodiscard]] static std::size_t fold_of(std::size_t block, const Tested& test) {
-    return block * kSwingFolds / test.blocks.size();
+    return block * kFolds / test.blocks.size();
   }
 
   [[nodiscard]] static VectorXd score_of(const Tested& test, const VectorXd& signs) {
@@ -189,12 +180,9 @@ std::vector<SwingPattern> find_swing_patterns(const Problem& problem, const Fits
   std::vector<std::optional<PatternTests::Tested>> tests(variables.size());
   parallel_for(tests.size(), [&](std::size_t i) { tests[i] = patterns.tested(std::move(variables[i])); });
 
-  std::mt19937_64 random(seed);
-  std::vector<VectorXd> flips(kSwingFlips, VectorXd::Ones(blocks));
-  for (VectorXd& flip : flips)
-    for (double& sign : flip) sign = (random() & 1U) != 0U ? 1.0 : -1.0;
-  std::vector<double> largest(kSwingFlips, 0.0);
-  parallel_for(kSwingFlips, [&](std::size_t i) {
+  const std::vector<VectorXd> flips = random_signs(blocks, seed);
+  std::vector<double> largest(flips.size(), 0.0);
+  parallel_for(flips.size(), [&](std::size_t i) {
     for (const auto& test : tests) largest[i] = std::max(largest[i], patterns.gain(*test, flips[i]));
   });
   const double by_luck = *std::ranges::max_element(largest);

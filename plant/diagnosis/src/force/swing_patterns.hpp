@@ -1,7 +1,6 @@
 #pragma once
-/// Errors of a swing that are not random: they depend on a measured variable, or they have one frequency. The
-/// learnt disturbance (docs/diagnosis.md, 4) is a random force on the load. Its
-/// model also absorbs a force that follows from the motion.
+/// Errors of a swing that are not random: functions of the motion, or of one frequency. The noise model
+/// (docs/diagnosis.md, 4) absorbs also a force that follows from the motion.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -10,7 +10,7 @@ namespace crane::diagnosis {
 /// By window and row.
 using WindowSignal = std::vector<std::vector<double>>;
 
-/// `factor` in each triangular bin over the range of `value`.
+/// factor * f(value): f is linear between the centres of the bins, which divide the range of `value`.
 struct SwingVariable {
   std::string name;
   bool of_sensor = false;  ///< the pattern adds to the measured swing, else to the force on the load

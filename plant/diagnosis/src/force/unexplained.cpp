@@ -1,10 +1,12 @@
 #include "force/unexplained.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
-#include "force/normal_equations.hpp"
+#include "force/bins.hpp"
+#include "force/cross_validation.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
 
@@ -15,7 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kPatternFolds = 4;
 /// Share of the travel within which a force builds up after a reversal.
 constexpr double kBuildUp = 0.25;
 
@@ -80,14 +81,11 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
 
 /// Forces of a piece, row x bin.
 MatrixXd forces_of(const Piece& piece, const Variable& variable) {
-  const auto last = static_cast<double>(variable.bins - 1);
-  MatrixXd forces = MatrixXd::Zero(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins));
+  MatrixXd forces(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins));
   for (Index k = 0; k < forces.rows(); ++k) {
     const std::size_t row = piece.first + static_cast<std::size_t>(k);
     const double share = (variable.value(piece.run, row) - variable.over.low) / variable.over.width();
-    const double at = last * std::clamp(share, 0.0, 1.0), force = variable.force(piece.run, row);
-    for (Index bin = 0; bin < forces.cols(); ++bin)
-      forces(k, bin) = force * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
+    forces.row(k) = variable.force(piece.run, row) * triangular_bins(share, variable.bins);
   }
   return forces;
 }
@@ -107,11 +105,6 @@ NormalEquations total(const std::vector<NormalEquations>& pieces) {
   return all;
 }
 
-/// Small penalty of the amplitudes, on the diagonal of the Hessian.
-double ridge_of(const NormalEquations& all) {
-  return 1e-3 * all.hessian.trace() / static_cast<double>(all.score.size()) + 1e-12;
-}
-
 /// Rms over the rows of the fitted acceleration.
 double rms_acceleration(const Pieces& pieces, const Variable& variable) {
   NormalEquations all = total(normal_equations_of(pieces, variable));
@@ -125,24 +118,21 @@ double rms_acceleration(const Pieces& pieces, const Variable& variable) {
   return std::sqrt(squares / count);
 }
 
-/// Decrease of the loss of pieces outside the fit; 0 unless all folds but one have a gain.
+/// Decrease of the loss of pieces outside the fit.
 double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
   const Index n = pieces[0].score.size();
   const NormalEquations all = total(pieces);
   const double ridge = ridge_of(all);
-  double gain = 0;
-  std::size_t agreeing = 0;
-  for (std::size_t fold = 0; fold < kPatternFolds; ++fold) {
+  std::array<double, kFolds> gains{};
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
     NormalEquations own{n}, others = all;
     for (std::size_t w = 0; w < pieces.size(); ++w)
-      if (w * kPatternFolds / pieces.size() == fold) own += pieces[w];
+      if (w * kFolds / pieces.size() == fold) own += pieces[w];
     others -= own;
     others.hessian.diagonal().array() += ridge;
-    const double gained = own.gain(others.hessian.ldlt().solve(others.score));
-    gain += gained;
-    agreeing += gained > 0 ? 1 : 0;
+    gains[fold] = own.gain(others.hessian.ldlt().solve(others.score));
   }
-  return agreeing + 1 >= kPatternFolds ? gain : 0;
+  return gain_of_folds(gains);
 }
 
 /// Cross-validated gain; of a pattern over time, beyond that of a constant.

@@ -1,6 +1,5 @@
 #pragma once
-/// Force on a drive that no candidate explains: free in each bin of one variable (position, speed, distance
-/// since the last reversal, command ...), cross-validated.
+/// Pattern of the missing force on a drive or load: a function of one variable, a line, or jumps.
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@ struct Unexplained {
   std::string variable;  ///< "trolley: position", ...
   GoesWith with = GoesWith::position;
   Output output = kTrolleyPosition;
-  double gain = 0;      ///< decrease of the loss, cross-validated
+  double gain = 0;      ///< decrease of the loss; cross-validated except for jumps
   double fraction = 0;  ///< of the pieces' loss
   /// Pattern of a drive over a variable: rms acceleration of the drive by the pattern, m/s2 or rad/s2. Other
   /// patterns: infinite.

@@ -128,6 +128,7 @@ Effects first_of(const Effects& effects, std::size_t count) {
 }  // namespace
 
 Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
+  fitted = study.converged(std::move(fitted));
   for (int attempt = 0;; ++attempt) {
     const bool last = attempt + 1 == kAttempts;
     const LossParabola parabola = fit_loss_parabola(study, fitted);
@@ -148,14 +149,15 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
       if (!last && best.gain > kBetter)
         better = first_of(moved(uncertainty.effects, best.at * direction), fitted.effects.size());
       const double bend = value.bend * value.std_dev * value.std_dev;
-      const double scatter = value.std_dev * spread(profile, bend, seed + static_cast<std::uint64_t>(i));
+      const double scatter =
+          value.by_correlation * value.std_dev * spread(profile, bend, seed + static_cast<std::uint64_t>(i));
       std_dev.push_back(std_dev_of(value, scatter, parabola.std_dev[i]));
     }
     if (better.empty()) {
       fitted.std_dev = std::move(std_dev);
       return fitted;
     }
-    Fitted refit = study.fit(better);
+    Fitted refit = study.converged(study.fit(better));
     // A profile along the inaccuracies may decrease the loss where the values alone cannot.
     if (refit.train.loss < fitted.train.loss)
       fitted = std::move(refit);

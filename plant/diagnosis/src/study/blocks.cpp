@@ -137,6 +137,22 @@ VectorXd solve(const MatrixXd& h, const VectorXd& g) {
   return regular.ldlt().solve(g);
 }
 
+std::vector<std::size_t> followers_within(const Problem& problem, double time_s) {
+  std::vector<std::size_t> followers;
+  for (std::size_t w = 0; w < problem.windows().size();) {
+    const std::size_t run = problem.windows()[w].run, first = followers.size();
+    double duration_s = 0;
+    for (; w < problem.windows().size() && problem.windows()[w].run == run; ++w) {
+      duration_s += static_cast<double>(problem.windows()[w].rows) * problem.runs()[run].run.period_s;
+      followers.resize(followers.size() + blocks_in(problem, problem.windows()[w]));
+    }
+    const std::size_t count = followers.size() - first;
+    const auto most = static_cast<std::size_t>(std::lround(time_s * static_cast<double>(count) / duration_s));
+    for (std::size_t i = 0; i < count; ++i) followers[first + i] = std::min(most, count - 1 - i);
+  }
+  return followers;
+}
+
 Blocks log_variances_of(const Problem& problem) {
   const BlockRowsOf rows = block_rows_of(problem);
   Blocks blocks(rows.blocks, 0.0);

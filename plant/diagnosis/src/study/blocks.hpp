@@ -52,6 +52,8 @@ void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Eigen:
 /// parameters: 2 g_b' (H - H_b)^-1 g_b. With H it would be the infinitesimal jackknife. The sum is the
 /// penalty of K. Takeuchi, Suri-Kagaku 153 (1976) 12, with leverage.
 [[nodiscard]] Blocks left_out(const BlockScores& at);
+/// By block: number of the blocks after it, in its run, that begin within `time_s` of its end, rounded.
+[[nodiscard]] std::vector<std::size_t> followers_within(const Problem& problem, double time_s);
 /// Sum of ln f of the innovations, by block.
 [[nodiscard]] Blocks log_variances_of(const Problem& problem);
 

@@ -95,9 +95,7 @@ class Builder {
               two_amounts("position_force", axis,
                           {free_parameter("position_force", "stiffness_vpm", -100, 100, 0.05),
                            free_parameter("position_force", "offset_v", -5, 5, 0.02)}));
-    // Without a force of position on the axis, friction that grows with the motor force has the effect of a
-    // smaller motor gain.
-    if (carries_weight(axis)) all_.add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), Changes::drive);
+    all_.add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), Changes::drive);
     all_.add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), Changes::drive,
              InRigFile::yes);
     all_.add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), Changes::drive);
@@ -146,13 +144,6 @@ class Builder {
     for (double rate = 0.5 * fastest_vps; rate > slowest_vps; rate *= 0.5) rates.push_back({rate});
     if (rates.empty()) return;
     all_.add(limit("command_rate_limit", axis, "rate_vps", slowest_vps, fastest_vps, rates), Changes::drive);
-  }
-
-  /// Whether the rig file contains a force on the axis that depends on its position.
-  [[nodiscard]] bool carries_weight(const std::string& axis) const {
-    return std::ranges::any_of(rig_.terms, [&](const TermSetting& term) {
-      return term.axis == axis && (term.name == "torque_ripple" || term.name == "position_force");
-    });
   }
 
   /// Errors of the sensor of a drive without a command are visible in the swing only.

@@ -18,8 +18,9 @@ constexpr int kMostRounds = 12;  // of Gauss-Newton
 /// before. kFewAttempts applies to the values of one effect alone, and while the loss exceeds `loss_to_beat`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
-/// A round that decreases the Cauchy loss by less is the last one.
-constexpr double kLeastGain = 0.3;
+/// Study::kLeastGain for the values of a verdict, which are then within 0.1 standard deviations of the
+/// minimum.
+constexpr double kLeastGainOfVerdict = 0.01;
 /// The same for the sum of squares: the larger of a number of noise variances and a share of the sum.
 constexpr double kLeastGainOfSquares = 3, kLeastShareOfSquares = 1e-4;
 /// Pattern search on a rough loss (R. Hooke, T. A. Jeeves, J. ACM 8 (1961) 212): first step as a share of the
@@ -68,33 +69,29 @@ double promised(const BlockScores& at, const VectorXd& step) {
   return step.allFinite() ? 2 * at.gradient().dot(step) - step.dot(at.curvature * step) : 0;
 }
 
-/// Damped step of the values `active` inside their bounds. A value at its bound whose step leads outwards is
-/// held.
+/// Damped step of the values `active` inside their bounds. A value whose step leads to its bound or beyond
+/// is held at the bound, and the step of the others minimises the same parabola beside it (active set).
 VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping,
                       std::vector<Index> active) {
   VectorXd step = VectorXd::Zero(flat.values.size());
-  for (int round = 0; round < 4 && !active.empty(); ++round) {
-    const auto n = static_cast<Index>(active.size());
-    MatrixXd reduced(n, n);
-    VectorXd gradient(n);
-    for (Index i = 0; i < n; ++i) {
-      gradient[i] = g[active[static_cast<std::size_t>(i)]];
-      for (Index j = 0; j < n; ++j)
-        reduced(i, j) = h(active[static_cast<std::size_t>(i)], active[static_cast<std::size_t>(j)]);
-    }
+  while (!active.empty()) {
+    const VectorXd gradient = g - h * step;  // the steps of active values are 0
+    MatrixXd reduced = h(active, active);
     reduced.diagonal() *= 1 + damping;
-    const VectorXd moved = solve(reduced, gradient);
-    step.setZero();
-    std::vector<Index> free;
-    for (Index i = 0; i < n; ++i) {
+    const VectorXd moved = solve(reduced, gradient(active));
+    std::vector<Index> inside;
+    VectorXd next = step;
+    for (Index i = 0; i < moved.size(); ++i) {
       const Index at = active[static_cast<std::size_t>(i)];
       const FreeParameter& p = *flat.parameters[static_cast<std::size_t>(at)];
       const double wanted = flat.values[at] + moved[i], kept = std::clamp(wanted, p.low, p.high);
-      step[at] = kept - flat.values[at];
-      if (kept == wanted || step[at] != 0) free.push_back(at);
+      next[at] = kept - flat.values[at];
+      if (kept == wanted) inside.push_back(at);
     }
-    if (free.size() == active.size()) break;
-    active = free;
+    if (inside.size() == active.size()) return next;
+    for (const Index at : inside) next[at] = 0;
+    step = std::move(next);
+    active = std::move(inside);
   }
   return step;
 }
@@ -126,10 +123,11 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 }  // namespace
 
-bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart) const {
+bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart,
+                    double least_gain) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   const double enough =
-      loss == Loss::robust ? kLeastGain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
+      loss == Loss::robust ? least_gain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
   std::optional<Slopes> here;  // `along`, whitened
   for (int round = 0; round < kMostRounds; ++round) {
     if (!here) {
@@ -279,6 +277,15 @@ Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near, 
   estimate_uncertainty(best, whitened(along, best.train), {});
   best.nuisance = nuisance();
   return best;
+}
+
+Fitted Study::converged(Fitted fitted) const {
+  Slopes along;
+  descend(fitted, Loss::robust, std::numeric_limits<double>::infinity(), along, fitted.effects.size(),
+          kLeastGainOfVerdict);
+  along = plain_slopes(fitted.effects, fitted.train, std::move(along));
+  estimate_uncertainty(fitted, whitened(along, fitted.train), {});
+  return fitted;
 }
 
 }  // namespace crane::diagnosis

@@ -91,6 +91,9 @@ class Study {
   /// The same, with the starts of the windows of `near`, an evaluation of some of the effects.
   [[nodiscard]] Fitted fit(Effects effects, double loss_to_beat, const Evaluation& near) const;
 
+  /// The fit at the minimum of the loss near its values, beside the present inaccuracies.
+  [[nodiscard]] Fitted converged(Fitted fitted) const;
+
   /// @pre the training data are whitened with the nuisance parameters of the fit
   [[nodiscard]] Uncertainty uncertainty_of(const Fitted& fitted) const;
 
@@ -118,11 +121,15 @@ class Study {
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
   /// The crane of the rig file with these inaccuracies and effects.
   [[nodiscard]] Crane crane_with(const Effects& inaccuracies, const Effects& effects) const;
+  /// A round that decreases the Cauchy loss by less is the last one.
+  static constexpr double kLeastGain = 0.3;
   /// Gauss-Newton rounds from `best`. @param along  plain slopes at `best` of its leading values, as far as
   /// known; those of the result on return, all or none
   /// @param apart  number of leading effects whose values also change alone
   /// @return false when the loss cannot fall below `loss_to_beat`
-  bool descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart) const;
+  /// @param least_gain  a round that decreases the Cauchy loss by less is the last one
+  bool descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart,
+               double least_gain = kLeastGain) const;
   /// fit() that begins with known plain slopes. @param along  of the effects, at their values, or empty;
   /// those of the result on return
   [[nodiscard]] Fitted fit(Effects effects, double loss_to_beat, const Evaluation& near, Slopes& along) const;

@@ -28,24 +28,65 @@ struct Determined {
   VectorXd prior;  ///< by column: information of the bounds of the inaccuracies; 0 for the effects
 };
 
+/// The scores of blocks correlate up to this number of correlation times of the disturbance: a disturbance
+/// at the end of a block acts on the unknown start of the next one. Beyond, its correlation is below e^-2.
+constexpr double kCorrelationTimes = 2;
+
+/// By block of the drives, then of the load.
+std::vector<std::size_t> followers_of(const Study& study, const Nuisance& nuisance) {
+  const auto longest_s = [](const std::vector<Disturbance>& disturbances) {
+    double time_s = 0;
+    for (const Disturbance& disturbance : disturbances) time_s = std::max(time_s, disturbance.correlation_s);
+    return time_s;
+  };
+  const double of_drive_s = std::max(longest_s(nuisance.drive), longest_s(nuisance.equation_error));
+  std::vector<std::size_t> followers = followers_within(study.drive(), kCorrelationTimes * of_drive_s);
+  const auto more = followers_within(study.load(), kCorrelationTimes * longest_s(nuisance.load));
+  followers.insert(followers.end(), more.begin(), more.end());
+  return followers;
+}
+
 /// Changes of the values when the fit omits a block, one row per block, about their mean.
 MatrixXd jackknife(const BlockScores& at, const VectorXd& prior) {
   const Index values = prior.size();
   MatrixXd changes(at.by_block.rows(), values);
   for (Index block = 0; block < changes.rows(); ++block) {
-    MatrixXd others = (at.curvature - at.curvature_of[static_cast<std::size_t>(block)]);
+    MatrixXd others = kCurvaturePerWeight * (at.curvature - at.curvature_of[static_cast<std::size_t>(block)]);
     others.diagonal() += prior;
     changes.row(block) = solve(others, at.by_block.row(block).transpose()).transpose();
   }
   return changes.rowwise() - changes.colwise().mean();
 }
 
-/// Degrees of freedom of a sum of squares of independent normal values with unequal variances
+/// Least ratio of an estimated variance to the true one for which the estimate is corrected.
+constexpr double kLeastEstimated = 0.5;
+
+/// Variance of the sum of the changes of a value, with its degrees of freedom.
+struct SumVariance {
+  double variance = 0, freedom = 1;
+  double independent = 0;  ///< variance for independent blocks
+};
+
+/// Sum of the squares and of the products of correlated blocks (truncated kernel: H. White, Asymptotic Theory
+/// for Econometricians, 1984, VI), at least the sum of the squares. At the fit, the changes sum to 0, which
+/// decreases the expectation of the products: with the variances v of the blocks, by the sum of v_b v_c over
+/// all variances. The degrees of freedom are those of a quadratic form of independent normal values
 /// (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110). A squared value estimates its variance v, and its
 /// square 3 v^2.
-double freedom_of(const VectorXd& changes) {
-  const double squares = changes.squaredNorm(), fourths = changes.array().square().square().sum();
-  return fourths > 0 ? std::max(1.0, 3 * squares * squares / fourths - 1) : 1;
+SumVariance variance_of_sum(const VectorXd& changes, const std::vector<std::size_t>& followers) {
+  const VectorXd squares = changes.cwiseAbs2();
+  double products = 0, of_pairs = 0;
+  for (Index b = 0; b < changes.size(); ++b) {
+    const auto count = static_cast<Index>(followers[static_cast<std::size_t>(b)]);
+    products += 2 * changes[b] * changes.segment(b + 1, count).sum();
+    of_pairs += 2 * squares[b] * squares.segment(b + 1, count).sum();
+  }
+  const double independent = squares.sum();
+  if (independent == 0) return {};
+  const double estimated = std::max(kLeastEstimated, 1 - of_pairs / (independent * independent));
+  const double variance = std::max(independent, (independent + products) / estimated);
+  const double freedom = variance * variance / (squares.squaredNorm() / 3 + of_pairs) - 1;
+  return {variance, std::max(1.0, freedom), independent};
 }
 
 /// Scores and curvatures of some of the directions.
@@ -128,26 +169,31 @@ Uncertainty Study::uncertainty_of(const Fitted& fitted) const {
   free.prior = Eigen::Map<const VectorXd>(prior.data(), static_cast<Index>(prior.size()));
   const BlockScores of_all = block_scores(fitted.train, slopes(all, fitted.train));
   const BlockScores at = selected(of_all, free.columns);
-  MatrixXd information = at.curvature;
+  MatrixXd information = kCurvaturePerWeight * at.curvature;
   information.diagonal() += free.prior;
   const MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd changes = jackknife(at, free.prior);
+  const std::vector<std::size_t> followers = followers_of(*this, fitted.nuisance);
   const double blocks = static_cast<double>(changes.rows());
   Index i = 0;
   for (const Effect& effect : fitted.effects)
     for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
       ValueUncertainty& value = result.values.emplace_back();
       const VectorXd own = inverse.col(i);
-      value.by_noise = std::sqrt(std::max(0.0, own[i]) * (effect.candidate->drive ? 2 : 1));
+      value.by_noise =
+          std::sqrt(kScorePerCurvature * std::max(0.0, own[i]) * (effect.candidate->drive ? 2 : 1));
       const VectorXd line = own[i] > 0 ? VectorXd(own / own[i]) : VectorXd(VectorXd::Unit(own.size(), i));
       value.line = VectorXd::Zero(values);
       value.line(free.columns) = line;
       value.bend = line.dot(free.prior.cwiseProduct(line));
-      value.std_dev = std::sqrt((blocks - 1) / blocks * changes.col(i).squaredNorm() +
-                                own.dot(free.prior.cwiseProduct(own)));
-      value.freedom = freedom_of(changes.col(i));
+      const SumVariance by_blocks = variance_of_sum(changes.col(i), followers);
+      value.std_dev =
+          std::sqrt((blocks - 1) / blocks * by_blocks.variance + own.dot(free.prior.cwiseProduct(own)));
+      value.freedom = by_blocks.freedom;
+      if (by_blocks.independent > 0)
+        value.by_correlation = std::sqrt(by_blocks.variance / by_blocks.independent);
       for (const HeldError& error : held) {
-        const double shift = own.dot(of_all.curvature(free.columns, error.column));
+        const double shift = kCurvaturePerWeight * own.dot(of_all.curvature(free.columns, error.column));
         value.systematic = std::hypot(value.systematic, shift * error.std_dev);
       }
     }

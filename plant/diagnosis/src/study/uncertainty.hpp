@@ -7,9 +7,11 @@ namespace crane::diagnosis {
 /// Uncertainty of one value.
 struct ValueUncertainty {
   /// Standard deviation by the sandwich covariance of all values and inaccuracies, from the jackknife over
-  /// blocks.
+  /// blocks with the covariances of neighbouring blocks.
   double std_dev = 0;
-  double freedom = 1;   ///< degrees of freedom of the jackknife
+  double freedom = 1;  ///< degrees of freedom of the jackknife
+  /// Standard deviation over that of independent blocks, at least 1.
+  double by_correlation = 1;
   double by_noise = 0;  ///< standard deviation by the learnt noise and disturbance alone
   /// Standard deviation by the errors of the zeros of the swing sensors, and by the inaccuracies at their
   /// bounds.

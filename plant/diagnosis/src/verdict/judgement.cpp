@@ -124,7 +124,7 @@ class Judgement {
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
       remainder.from.push_back(left[i].what.variable);
     return std::any_of(left.begin(), left.end(),
-                       [&](const Pattern& pattern) { return pattern_share(pattern, best_.effects); });
+                       [&](const Pattern& pattern) { return counts_as_pattern(pattern, best_.effects); });
   }
 
   /// Tests for a swing whose missing force exceeds a credible disturbance, and for a drive whose error

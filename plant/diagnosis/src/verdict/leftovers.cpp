@@ -73,7 +73,7 @@ bool oscillates(const Study& study, const Effects& effects) {
   return !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
 }
 
-bool pattern_share(const Pattern& pattern, const Effects& effects) {
+bool counts_as_pattern(const Pattern& pattern, const Effects& effects) {
   const Unexplained& u = pattern.what;
   const bool counts =
       u.with == GoesWith::frequency || (u.fraction > rules::kPattern && u.gain > rules::kPatternLuck);

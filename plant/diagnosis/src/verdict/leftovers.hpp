@@ -29,7 +29,7 @@ struct Pattern {
 [[nodiscard]] bool oscillates(const Study& study, const Effects& effects);
 
 /// True if the pattern exceeds the thresholds of patterns beside these effects.
-[[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);
+[[nodiscard]] bool counts_as_pattern(const Pattern& pattern, const Effects& effects);
 
 /// Errors of the swing beside the best hypothesis that are not a random force.
 struct SwingLeft {
