@@ -201,11 +201,12 @@ void Bridge::look_for_marks(const Observation& observation) {
   for (std::size_t i = 0; i < kDrives; ++i) {
     if (last_line_.doubted()[i]) homing_.forget(i);
     const bool released = command_ && command_->brake_release[i] && last_line_.reason() == Reason::none;
-    const auto change = homing_.step(i, {.counts = observation.counts[i],
-                                         .active = observation.mark[i],
-                                         .requested = command_ && command_->homing[i],
-                                         .free = released && !observation.brake_closed[i],
-                                         .rests = last_line_.rests(i)});
+    const auto change =
+        homing_.step(i, {.counts = observation.counts[i],
+                         .active = observation.mark[i],
+                         .requested = command_ && command_->homing[i] && last_line_.reason() == Reason::none,
+                         .free = released && !observation.brake_closed[i],
+                         .rests = last_line_.rests(i)});
     if (!change) continue;
     measurement_.shift(i, *change);
     last_line_.shift(i, static_cast<double>(*change) * unit_per_count_[i]);

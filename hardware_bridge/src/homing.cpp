@@ -49,14 +49,13 @@ std::optional<std::int64_t> Homing::step(std::size_t i, const MarkView& view) no
   Axis& axis = axes_[i];
   if (!axis.homes) return std::nullopt;
   if (view.requested && !axis.was_requested) forget(i);
+  if (!view.requested && !axis.known) forget(i);  // homing has failed or was stopped
   if (view.requested && view.free && axis.started) look(axis, view);
-  const bool over = !view.requested && !axis.was_requested;
-  if (over && axis.first && !axis.found) forget(i);  // homing has ended before the second detection
   axis.was_requested = view.requested;
   axis.was_active = view.active;
   axis.last_counts = view.counts;
   axis.started = true;
-  if (!over || !axis.found || view.active || !view.rests) return std::nullopt;
+  if (!view.requested || !axis.found || view.active || !view.rests) return std::nullopt;
   const auto shift = std::llround(axis.mark_counts - *axis.found);
   axis.first.reset();
   axis.found.reset();

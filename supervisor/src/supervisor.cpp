@@ -80,6 +80,14 @@ bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
   return failed && drives_active(memory.machine) && !memory.machine.homing;
 }
 
+/// Whether the bridge may set the zero of the homed axis: during homing, and after it has found and left its
+/// mark, until the position is known. After any other stop, the bridge forgets the mark.
+bool may_set_zero(const Outputs& decided, const TickMemory& memory) {
+  if (memory.machine.homing) return true;
+  return memory.may_set_zero && decided.state == State::locked && decided.cause == Cause::homed &&
+         memory.sample.position_unknown[memory.homing_axis];
+}
+
 /// The zones have no effect during homing, because the position is unknown. A demand that could lead into a
 /// zone is replaced by 0 V, from which the ramped stop starts.
 ZoneVerdict guard_zones(const Limits& limits, bool sampled, GateOutput& gated, TickMemory& memory) {
@@ -163,9 +171,10 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
                  .missing_demand_count = memory.gate.missing_count};
   out.homing_failure = memory.homing.failure;
   out.zone = zone.zone;
+  memory.may_set_zero = may_set_zero(decided, memory);
   for (std::size_t i = 0; i < kAxes; ++i) {
     out.brake_release[i] = decided.brake_release && takes_part(limits, memory, i);
-    out.homing[i] = is_homing(memory, i);
+    out.homing[i] = memory.may_set_zero && memory.homing_axis == i;
     if (out.homing[i] && decided.state == State::run) out.homing_speed[i] = creeping_speed;
   }
   memory.gate.last_v = out.drive_v;

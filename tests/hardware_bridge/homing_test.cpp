@@ -50,9 +50,11 @@ class Hand {
     move(direction * approach_mps, 0.04 / approach_mps);
     move(-direction * 0.05, 1);
   }
+  /// The brake closes; the supervisor requests homing until the position is known.
   void end() {
-    requested = free = false;
+    free = false;
     tick();
+    requested = false;
     tick();
   }
   [[nodiscard]] std::int64_t counts() const {
@@ -128,6 +130,19 @@ TEST(Homing, StaysUnknownWhenItIsInterrupted) {
   hand.move(-0.01, 4);  // first detection of a second homing
   hand.end();
   EXPECT_FALSE(hand.homing.known(0));
+}
+
+/// After the second detection, the supervisor may find a fault, or an operator may stop the crane. The
+/// encoder may have lost counts since.
+TEST(Homing, ThatEndsBeforeTheAxisRestsLeavesThePositionUnknown) {
+  Hand hand{homing_tower()};
+  hand.run_course();
+  ASSERT_TRUE(hand.homing.found(0));
+  hand.requested = hand.free = false;
+  hand.tick();
+  hand.tick();
+  EXPECT_FALSE(hand.homing.known(0));
+  EXPECT_FALSE(hand.homing.found(0));
 }
 
 TEST(Homing, OfAnAxisThatIsKnownForgetsItsZeroFirst) {

@@ -49,6 +49,18 @@ std::vector<Fault> faults() {
          was = in.limit_low[0] = closed;
        },
        Cause::homing_failed, crane_HOMING_MARK_DISAGREES},
+      {"TheEncoderFallsSilentAfterTheSecondDetection",
+       [sights = 0, was = false, ticks = 0, shown = std::int32_t{0}](bridge::Inputs& in,
+                                                                     const auto&) mutable {
+         constexpr int kBeforeSilence = 30;
+         sights += in.limit_low[0] && !was ? 1 : 0;
+         was = in.limit_low[0];
+         if (sights < 2 || ++ticks <= kBeforeSilence)
+           shown = in.raw_counts[0];
+         else
+           in.raw_counts[0] = shown;
+       },
+       Cause::homing_failed, crane_HOMING_NO_MOTION},
   };
 }
 

@@ -72,9 +72,9 @@ class Crane : public Timeline {
     sample.mark_active[0] = sample.limit_low[0] = closed;
     sample.limit_high[0] = true_m >= 1.4;
     sample.mark_found[0] = bridge_agrees && sights_ >= 2 && sample.position_unknown[0];
-    if (out.homing[0]) {
-      sample.position_unknown[0] = true;
-    } else if (sample.mark_found[0] && sample.brake_closed[0] && !closed) {
+    if (out.homing[0] && !was_homing_) sample.position_unknown[0] = true;
+    was_homing_ = out.homing[0];
+    if (out.homing[0] && sample.mark_found[0] && sample.brake_closed[0] && !closed) {
       sample.position[0] = true_m;
       sample.position_unknown[0] = sample.mark_found[0] = false;
     }
@@ -84,6 +84,7 @@ class Crane : public Timeline {
     EXPECT_LE(std::abs(out.drive_v[0]), limits.axis[0].homing.volt_limit_v);
   }
   int sights_ = 0;
+  bool was_homing_ = false;
 };
 
 TEST(HomingLimits, AreCheckedWithTheOthers) {

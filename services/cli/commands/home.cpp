@@ -27,11 +27,18 @@ class Watch {
       : bus_{bus}, statuses_{bus.subscriber(topics::supervisor)}, states_{bus.subscriber(topics::state)} {}
 
   /// Waits until `holds` returns true. @return false at the timeout
+  /// @throws std::runtime_error after a stop signal, or when the supervisor has been silent for kSilent_ns
   bool until(double timeout_s,
              const std::function<bool(const msg::SupervisorStatus&, const msg::State&)>& holds) {
     const bool reached = wait_until(bus_, timeout_s, [&] {
-      bus::take_newest(statuses_, status_);
+      const auto now_ns = runtime::monotonic_ns();
+      if (bus::take_newest(statuses_, status_)) heard_ns_ = now_ns;
       bus::take_newest(states_, state_);
+      if (status_ && now_ns - heard_ns_ > kSilent_ns)
+        throw std::runtime_error(
+            "home: no sample of crane/supervisor for 2 s: the stack has ended, or its host cannot be "
+            "reached; "
+            "see `crane status`");
       return status_ && state_ && holds(*status_, *state_);
     });
     if (runtime::stop_requested())
@@ -43,11 +50,14 @@ class Watch {
   [[nodiscard]] const msg::SupervisorStatus& status() const { return *status_; }
 
  private:
+  static constexpr std::int64_t kSilent_ns = 2'000'000'000;
+
   bus::Bus& bus_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::State> states_;
   std::optional<msg::SupervisorStatus> status_;
   std::optional<msg::State> state_;
+  std::int64_t heard_ns_ = 0;  ///< CLOCK_MONOTONIC, arrival of `status_`
 };
 
 /// Order of homing. The hoist is first, because a short cable reduces the swing. The slew axis is last,

@@ -2,8 +2,9 @@
 /// Determines the zeros of the encoders during homing. The position of an axis with Zero::homing is unknown
 /// until its mark has been detected twice: first in the search, then at the approach speed after the axis has
 /// backed off. The second detection determines the position. The counter is set after the brake has closed,
-/// so that no position jumps while a drive is active. No I/O and no clock. The
-/// supervisor moves the axis.
+/// so that no position jumps while a drive is active. The supervisor moves the axis, and requests homing
+/// until then: if the request ends earlier, because homing has failed or was stopped, the position stays
+/// unknown. No I/O and no clock.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,7 +18,7 @@ namespace crane::bridge {
 struct MarkView {
   std::int64_t counts = 0;  ///< unwrapped counts
   bool active = false;      ///< true: the axis is at its homing switch or mark
-  bool requested = false;   ///< true: crane/command homes this axis
+  bool requested = false;   ///< true: crane/command homes this axis, and the bridge has not latched
   bool free = false;        ///< true: the brake is commanded open and reports open
   bool rests = false;       ///< true: the closed brake has brought the axis to rest
 };

@@ -64,7 +64,8 @@ struct TickInput {
 struct TickMemory {
   Memory machine{};
   HomingMemory homing{};
-  std::size_t homing_axis = 0;  ///< valid while machine.homing
+  std::size_t homing_axis = 0;  ///< valid while machine.homing or may_set_zero
+  bool may_set_zero = false;    ///< true: the axis is being homed, or has been homed and has no position yet
   GateMemory gate{};
   MotionMemory motion{};
   BrakeMemory brakes{};
@@ -105,8 +106,8 @@ struct TickOutput {
   StatusFlags flags{};
   PerAxis drive_v{};  ///< V
   AxisFlags brake_release{};
-  AxisFlags homing{};                                  ///< true: the axis creeps to its mark
-  PerAxis homing_speed{};                              ///< speed of the reference, unit/s
+  AxisFlags homing{};      ///< true: the axis is being homed, or has been homed and has no position yet
+  PerAxis homing_speed{};  ///< speed of the reference, unit/s
   HomingFailure homing_failure = HomingFailure::none;  ///< result of the last homing
   bool watchdog_permission = false;
   bool stop_motion = false;
