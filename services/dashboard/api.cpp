@@ -212,7 +212,7 @@ void Api::request(const ApiRequest& request, AnswerHandler answer) {
           {false, request.seen.empty()
                       ? "the header X-Crane-Seen is missing: state the newest status that has arrived (GET "
                         "/api/seen)"
-                      : "its sender has not seen the crane within the last 2 s"});
+                      : "the request names no status of the last 2 s (X-Crane-Seen): repeat the request"});
     wanted.seen = seen.value_or(msg::Header{});
   }
   send_(wanted, reply_with);

@@ -110,7 +110,7 @@ constexpr std::array kRules{
          "a brake reports closed while the drives are active", "same tick", kBrakeSupply},
     Rule{"supervisor_following_error", Cause::following_error, Reaction::power_off, Scope::armed, false,
          [](L, I in, M) noexcept { return in.following_error; },
-         "the speed of an axis differs from what its voltage explains by more than 5 % of `max_speed` plus 5 % of the speed",
+         "the speed of an axis differs from what its voltage explains by more than 5 % of `max_speed` plus 5 % of the speed plus the quantisation",
          "two ticks, plus the limit divided by the unexplained acceleration", kFollowing},
     Rule{"supervisor_bridge_not_ready", Cause::bridge_latched, Reaction::power_off, Scope::arming, false,
          [](L limits, I in, M m) noexcept { return match_is_late(limits, in, m) && bridge_stopped(in); },

@@ -97,7 +97,7 @@ TEST_P(DelayedRequest, OfAnOperatorWhoWasToldThatNobodyAnswersMovesNothing) {
   std::string answer;
   EXPECT_TRUE(stack_.until([&] { return !(answer = answer_to_the_move()).empty(); }, 3s))
       << "the request did not arrive, or was accepted";
-  EXPECT_THAT(answer, testing::HasSubstr("has not seen the crane within the last 2 s"));
+  EXPECT_THAT(answer, testing::HasSubstr("names no tick of the last 2 s"));
   stack_.listen(500ms);
   expect_hold();
   EXPECT_TRUE(is_connected()) << client_.body();

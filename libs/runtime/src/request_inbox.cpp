@@ -52,10 +52,11 @@ std::string_view RequestInbox::obsolete_because(const msg::Request& request, std
   if (schedules_ || stops(request)) return "";
   const auto seen_ns = ticks_.time_of(request.header);
   if (!seen_ns || now_ns - *seen_ns > kLongestAge_ns)
-    return "its operator has not seen the crane within the last 2 s (header.tick and header.sample_time_ns "
-           "are not those of a crane/state of the last 2 s): repeat the request";
+    return "the request names no tick of the last 2 s (header.tick, header.sample_time_ns): repeat the "
+           "request";
   if (*seen_ns < stopped_ns_)
-    return "the crane has stopped since the operator saw it: look at the crane and repeat the request";
+    return "the crane has stopped after the tick that the request names: look at the crane and repeat the "
+           "request";
   return "";
 }
 
