@@ -174,13 +174,13 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     }
     auto path = control::path_to(path_space_, from, target);
     if (path.outcome == control::PathOutcome::straight && steps_ && !is_free_for_step(from, target))
-      path = {.outcome = control::PathOutcome::around, .points = {{.position = target}}};
+      path = {.outcome = control::PathOutcome::by_waypoints, .points = {{.position = target}}};
     const bool has_path =
-        path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::around;
+        path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::by_waypoints;
     if (has_path) move_number_ = number;
     if (path.outcome == control::PathOutcome::straight)
       start_straight(move, tick);
-    else if (path.outcome == control::PathOutcome::around)
+    else if (path.outcome == control::PathOutcome::by_waypoints)
       motion_.start(move, path, path_space_, tick);
     else
       node().error("no_path", "no path leads from the place where the crane rests to the target",
@@ -222,7 +222,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     sample.header.tick = tick;
     const auto measured = runtime::measurement(state);
     auto reference = motion_.at(tick);
-    start_.mark(measured, reference);
+    start_.set_starts(measured, reference);
     runtime::assign(sample, reference);
     sample.move_number = move_number_;
     sample.second_writer = disputed();

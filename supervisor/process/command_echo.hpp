@@ -22,7 +22,7 @@ class CommandEcho {
   /// Commands are stored for this time: twice the largest permitted age of a command (0.1 s, stale_after_s).
   static constexpr double kRemembered_s = 0.2;
   /// Number of consecutive contradicting states that end the supervisor.
-  static constexpr int kStates = 2;
+  static constexpr int kContradictions = 2;
   /// Longest time from the last command to open a brake until the brake must be closed. A brake that is open
   /// after this time has failed to close, or another program has opened the brake. Longer than the detection
   /// of a brake that does not close: its closing time of at most 0.1 s, and 0.11 s.
@@ -56,12 +56,12 @@ class CommandEcho {
     volts_ = false;
   }
 
-  /// @return true when kStates consecutive states show a voltage that this supervisor has not commanded, or a
-  /// brake that is open without a command
+  /// @return true when kContradictions consecutive states show a voltage that this supervisor has not
+  /// commanded, or a brake that is open without a command
   [[nodiscard]] bool contradicts(const msg::State& state) noexcept {
     volts_ = first_tick_ && unexplained_volts(state);
     in_a_row_ = first_tick_ && (volts_ || unexplained_brake(state)) ? in_a_row_ + 1 : 0;
-    return in_a_row_ >= kStates;
+    return in_a_row_ >= kContradictions;
   }
   /// True when the last contradiction was a voltage; false: an open brake.
   [[nodiscard]] bool is_of_volts() const noexcept { return volts_; }

@@ -88,7 +88,7 @@ std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxi
 
 std::string path_problem(const Limits& limits, const control::Path& path) {
   constexpr std::size_t kNamed = 4;
-  if (path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::around)
+  if (path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::by_waypoints)
     return "";
   std::string names;
   for (std::size_t i = 0; i < std::min(kNamed, path.blocking.size()); ++i)

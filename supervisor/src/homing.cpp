@@ -33,7 +33,7 @@ Leg leg_of(const AxisLimits& axis, HomingPhase phase) {
       return {-to_mark, homing.speed, homing.mark == Mark::input ? travel : back, HomingFailure::mark_stuck};
     case HomingPhase::search:
       return {to_mark, homing.speed, travel, HomingFailure::mark_not_found};
-    case HomingPhase::back_off:
+    case HomingPhase::backing_off:
     case HomingPhase::leave:
       return {-to_mark, homing.speed, back, HomingFailure::mark_stuck};
     case HomingPhase::approach:
@@ -62,9 +62,9 @@ void advance(const AxisLimits& axis, const Leg& leg, const HomingInput& in, Homi
       if (off_the_mark(axis, leg, in, m)) begin(HomingPhase::search, in, m);
       return;
     case HomingPhase::search:
-      if (in.mark_active) begin(HomingPhase::back_off, in, m);
+      if (in.mark_active) begin(HomingPhase::backing_off, in, m);
       return;
-    case HomingPhase::back_off:
+    case HomingPhase::backing_off:
       if (off_the_mark(axis, leg, in, m)) begin(HomingPhase::approach, in, m);
       return;
     case HomingPhase::approach:

@@ -232,7 +232,7 @@ inline MoveResult AdaptedCrane::move(const Target& target, double window_s) {
   for (int k = 0; k < ticks; ++k) {
     const double t = k * rig_.design.period_s;
     Reference reference = reference_at(wanted, t);
-    start.mark(measured_, reference);
+    start.set_starts(measured_, reference);
     tick(reference);
     if (watch) watch(t);
     const bool settled =

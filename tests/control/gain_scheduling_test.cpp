@@ -222,7 +222,7 @@ TEST(ForwardGain, IsConstantWhileTheReferenceRestsAndChangesWithTheNextReference
   m.position = {0, 0, 1};
   Reference r;
   const auto slew_gain = [&] {
-    start.mark(m, r);
+    start.set_starts(m, r);
     return forward_gains(design, r).slew;
   };
   r[kSlew].position = 2;
@@ -251,7 +251,7 @@ TEST(ForwardGain, KeepsTheFirstDemandOfAnyMoveWithinTheDrive) {
     m.position = {uniform(-5, 5), uniform(-3, 3), 1};
     Reference r;
     for (const auto axis : {kTrolley, kSlew}) r[axis].position = uniform(-5, 5);
-    ReferenceStart{}.mark(m, r);
+    ReferenceStart{}.set_starts(m, r);
     const auto v = make_full_tracking(design)->step(m, r).drive_v;  // no swing at rest
     for (const auto axis : {kTrolley, kSlew}) {
       const double demand = v[axis] + friction_compensation_v(design.friction[axis], v[axis], 0);
@@ -280,7 +280,7 @@ TEST(ForwardGain, IsTheSameInTrackingAndAntiSwingThroughWholeMoves) {
     for (auto& position : m.position) position += 0.01 * any(random);
     m.swing_radial_rad = any(random), m.swing_radial_radps = any(random);
     m.swing_tangential_rad = any(random), m.swing_tangential_radps = any(random);
-    start.mark(m, r);
+    start.set_starts(m, r);
     if (tick % 70 == 0) anti_swing = make_full_anti_swing(design);
     const ForwardGains k = forward_gains(design, r);
     const auto [trolley, slew] = full_state_gains(design, schedule(design, m), k);

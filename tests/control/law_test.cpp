@@ -204,7 +204,7 @@ TEST(References, NeverAllocate) {
   for (int k = 0; k < 1000; ++k) {
     Reference reference;
     reference[kTrolley] = shaper.at(profile, 0.005 * k);
-    start.mark({}, reference);
+    start.set_starts({}, reference);
     sum += reference[kTrolley].position + forward_gains(design, reference).trolley;
   }
   EXPECT_EQ(allocations - before, 0);

@@ -88,7 +88,7 @@ double settling_time_s(const Controller& controller, const Design& design, const
     const double t = k * design.period_s;
     Reference reference = reference_at(wanted, t);
     const auto measured = ideal(state);
-    start.mark(measured, reference);
+    start.set_starts(measured, reference);
     const Contribution swing_part = anti_swing->step(measured, reference);
     for (std::size_t i = 0; i < kAxes; ++i) {
       reference[i].position += swing_part.correction[i].position;

@@ -68,14 +68,14 @@ TEST_F(Echo, DetectsUncommandedVoltsAtTheSecondState) {
   command(0, false);
   auto state = report();
   state.applied_v[1] = -0.2;
-  EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
+  EXPECT_EQ(noticed_after(state), CommandEcho::kContradictions);
 }
 
 TEST_F(Echo, DetectsVoltsOfACommandThatWasNeverSent) {
   command(5, true);
   auto state = report();
   state.applied_command_tick += 3;
-  EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
+  EXPECT_EQ(noticed_after(state), CommandEcho::kContradictions);
 }
 
 TEST_F(Echo, DetectsABrakeThatIsOpenWithoutARelease) {
@@ -86,7 +86,7 @@ TEST_F(Echo, DetectsABrakeThatIsOpenWithoutARelease) {
   for (std::uint64_t i = 0; i <= ticks_in(CommandEcho::kBrake_s, 0.01); ++i) command(0, false);
   state = report();
   state.brake_closed[2] = false;
-  EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
+  EXPECT_EQ(noticed_after(state), CommandEcho::kContradictions);
 }
 
 TEST_F(Echo, IgnoresTheBrakesOfAbsentDrives) {

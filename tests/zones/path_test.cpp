@@ -33,7 +33,7 @@ TEST(PathToATarget, RaisesTheLoadOfAGantryAboveAZone) {
   auto space = gantry();
   space.zones = {{.name = "box", .position_x_m = 1.5, .size_x_m = 0.4, .size_y_m = 1, .top_m = 1}};
   const auto path = path_to(space, {0.5, 0, 1.2}, {2.5, 0, 1.2});
-  ASSERT_EQ(path.outcome, PathOutcome::around);
+  ASSERT_EQ(path.outcome, PathOutcome::by_waypoints);
   EXPECT_LT(path.points.front().position[2], 0.9);
   EXPECT_EQ(path.points.back().position, (PerAxis{2.5, 0, 1.2}));
 }
@@ -41,7 +41,7 @@ TEST(PathToATarget, RaisesTheLoadOfAGantryAboveAZone) {
 TEST(PathToATarget, LeavesTheMarginOfAZoneThatContainsTheStart) {
   auto space = tower();
   space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
-  EXPECT_EQ(path_to(space, {0.74, 0, 1}, {0.4, 0, 1}).outcome, PathOutcome::around);
+  EXPECT_EQ(path_to(space, {0.74, 0, 1}, {0.4, 0, 1}).outcome, PathOutcome::by_waypoints);
   EXPECT_EQ(path_to(space, {0.74, 0, 1}, {0.76, 0, 1}).outcome, PathOutcome::target_inside);
 }
 

@@ -122,7 +122,7 @@ Count check_random_paths(const PathSpace& rig, unsigned seeds, int most_zones) {
     if (path.outcome == PathOutcome::straight) {
       ++count.straight;
       EXPECT_GE(closest_on(space, from, {to}), kRestGap_m - 1e-3) << "seed " << seed;
-    } else if (path.outcome == PathOutcome::around) {
+    } else if (path.outcome == PathOutcome::by_waypoints) {
       ++count.around;
       EXPECT_GE(closest_on(space, from, corners_of(path)), kRestGap_m - 1e-3) << "seed " << seed;
       EXPECT_EQ(path.points.back().position, to) << "seed " << seed;
@@ -175,7 +175,7 @@ TEST(RandomRoutes, StayOutOfTheZonesWithBlendedCorners) {
     add_zones(space, random, 1 + random.below(6));
     const PerAxis from = free_place(space, random, 0.06), to = free_place(space, random, 0.06);
     const Path path = path_to(space, from, to);
-    if (path.outcome != PathOutcome::around) continue;
+    if (path.outcome != PathOutcome::by_waypoints) continue;
     const Route route{space, from, path.points, {.blends = true, .overlaps = true}};
     double rests_s = 0;
     for (double t = 0; t <= route.duration_s() + 0.1; t += 0.005) {

@@ -94,7 +94,7 @@ int show_path(const PathOptions& options) {
     case control::PathOutcome::straight:
       std::cout << "the straight move is free, at full speed\n";
       return runtime::kExitDone;
-    case control::PathOutcome::around:
+    case control::PathOutcome::by_waypoints:
       print_legs(space, from, path);
       return runtime::kExitDone;
     case control::PathOutcome::target_inside:

@@ -157,7 +157,7 @@ Path path_to(const PathSpace& space, const PerAxis& measured, const PerAxis& wan
     path = around(space, from, to, shortest_m, blocking);
   }
   if (!path) return {.outcome = PathOutcome::no_path, .blocking = indices_of(blocking)};
-  return {.outcome = PathOutcome::around, .points = std::move(path->points)};
+  return {.outcome = PathOutcome::by_waypoints, .points = std::move(path->points)};
 }
 
 }  // namespace crane::control

@@ -1,8 +1,7 @@
 #pragma once
 /// Homing of an axis: a sequence of slow motions during which the bridge finds the position of the axis. Each
 /// tick returns the speed of the reference; planner, control laws and gate process this reference as in every
-/// move. The bridge detects the mark independently (crane/bridge/homing.hpp). The second detection, at the
-/// approach speed, determines the position.
+/// move. The bridge detects the mark (crane/bridge/homing.hpp).
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
@@ -10,9 +9,10 @@ namespace crane::supervisor {
 enum class HomingPhase : std::uint8_t {
   leave_at_first,  ///< away from the mark; only when the axis starts at its mark
   search,          ///< towards the mark at the homing speed, until the mark is active
-  back_off,  ///< away from the mark, until the axis is `back_off` beyond the point at which the switch opened
+  /// away from the mark, until the axis is `back_off` beyond the point at which the switch opened
+  backing_off,
   approach,  ///< towards the mark at the approach speed, until the mark is active
-  leave,     ///< as back_off; during this phase the bridge must report the mark as found
+  leave,     ///< as backing_off; during this phase the bridge must report the mark as found
   done       ///< the axis has left the mark; the speed is 0. Then the bridge sets the position
 };
 

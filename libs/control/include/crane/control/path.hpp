@@ -35,7 +35,7 @@ struct PathSpace {
 
 enum class PathOutcome : std::uint8_t {
   straight,       ///< the straight leg to the target is free at the reference speeds; no waypoints
-  around,         ///< `points` lead to the target: around zones, or straight at reduced speed
+  by_waypoints,   ///< `points` lead to the target: around zones, or straight at reduced speed
   target_inside,  ///< the clearance of the target from the first zone of `blocking` is below kRestGap_m
   no_path         ///< the zones of `blocking` enclose the free space around the start
 };
@@ -43,8 +43,8 @@ enum class PathOutcome : std::uint8_t {
 /// Least clearance of a target, and of the start and the end of a path, m. The noise of the zone filter at
 /// rest is smaller.
 inline constexpr double kRestGap_m = 0.02;
-/// Least clearance of a path between its first and its last leg, m: that of the zone filter at the lowest
-/// speed of a leg.
+/// Least clearance of all legs but the first and the last, m. At the lowest speed of a leg, the zone filter
+/// does not stop the crane at this clearance.
 inline constexpr double kPassGap_m = 0.05;
 /// Largest distance of start and target, m: longer than any move of a crane. It bounds the time of a search
 /// from a wrong position.

@@ -12,8 +12,8 @@ class ReferenceStart {
  public:
   ReferenceStart() noexcept { position_.fill(std::numeric_limits<double>::quiet_NaN()); }
 
-  /// Sets `start` of every axis: the measured position at the last call at which the reference changed.
-  void mark(const Measurement& measured, Reference& reference) noexcept {
+  /// Sets `start` of each axis: its measured position when its reference position last changed.
+  void set_starts(const Measurement& measured, Reference& reference) noexcept {
     for (std::size_t i = 0; i < kAxes; ++i) {
       if (reference[i].position != position_[i]) start_[i] = measured.position[i];
       position_[i] = reference[i].position;
