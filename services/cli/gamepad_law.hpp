@@ -44,8 +44,8 @@ class GamepadLaw {
   /// (Android, key layout of the controller 0e6f:f501).
   static constexpr double kDeadZone = 0.125;
   /// Longest time without an event. A gamepad reports only changes: silence with a deflected stick means a
-  /// still hand or a broken radio link. The keyboard ends a session after the same time without a key. The
-  /// value is chosen, not derived.
+  /// still hand or a broken radio link. The keyboard releases the stick after the same time without an arrow
+  /// or page key. The value is chosen, not derived.
   static constexpr double kSilence_s = 10;
 
   /// @pre problem_of(ranges, selected) is empty

@@ -31,8 +31,8 @@ class StickKeys {
   /// Takes all bytes that wait in the terminal; call in every pass, also without bytes. The keys act from the
   /// time of the previous pass on: a key that is found after kFirst_s does not move the crane. Keys are
   /// a backlog in the first pass, more than kFirst_s after the previous pass, and in a pass of more than
-  /// kMostNewBytes. Arrow keys, page keys and r have no effect in a backlog, for kRepeat_s after a backlog
-  /// with keys, and in a pass with space or q.
+  /// kMostNewBytes. Arrow and page keys do nothing, and r only releases the stick, in a backlog, for
+  /// kRepeat_s after a backlog with keys, and in a pass with space or q.
   void take_pass(std::string_view bytes, double now_s);
   /// Takes bytes that arrived at `now_s`; a sequence may be split between calls.
   void take(std::string_view bytes, double now_s);

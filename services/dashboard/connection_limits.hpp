@@ -39,7 +39,7 @@ class ConnectionLimits {
   [[nodiscard]] std::size_t open(const Client& client, Kind kind) const;
   [[nodiscard]] std::size_t open() const;
   /// @return true when `to` may take a place from `holder`: both are on the same side, and the holder has
-  /// more. With n clients on one side, none loses any of its first 48/n connections.
+  /// more. With n clients on one side, each keeps at least 48/n connections: its newest ones.
   [[nodiscard]] bool must_yield(const Client& holder, const Client& to, Kind kind) const;
 
   void add(const Client& client, Kind kind) { ++open_[client].of(kind); }

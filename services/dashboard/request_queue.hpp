@@ -15,7 +15,8 @@ class RequestQueue {
     if (operates) sender_.emplace(bus);
   }
 
-  /// May be called by any thread. @return false when too many requests wait
+  /// May be called by any thread. @return false when the queue is full, which at most one request per
+  /// connection prevents
   bool ask(const stack::OperatorRequest& wanted, Answered answered) {
     return queue_.put({wanted, std::move(answered)});
   }
@@ -28,7 +29,7 @@ class RequestQueue {
     Answered answered;
   };
   std::optional<RequestSender> sender_;
-  Inbox<Queued> queue_{kMostConnections};  ///< never full: at most one request per connection
+  Inbox<Queued> queue_{kMostConnections};
 };
 
 }  // namespace crane::dashboard

@@ -19,7 +19,7 @@ class Situation {
   /// JSON of the situation. Two texts differ only when information for the operator differs.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
-  /// Age at which a status becomes invalid as the status that an operator has seen; as in the supervisor.
+  /// A request may name a status that arrived at most this long ago: RequestInbox::kLongestAge_s.
   static constexpr std::int64_t kSeen_ns = 2'000'000'000;
   /// @param seen  "EPOCH-TICK" of a crane/supervisor: a tick alone would also name a tick of another run
   /// @return its header; nothing when it has not arrived within kSeen_ns

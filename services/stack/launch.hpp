@@ -22,8 +22,7 @@ struct LaunchOptions {
   std::uint32_t epoch = 0;                     ///< start-up number of all processes; 0: random
   int priority = 50;                           ///< SCHED_FIFO priority; 0: ordinary scheduling
   bool verbose = false;                        ///< true: debug messages
-  /// The processes of the loop inherit the descriptor of the ledger. Unused in lockstep, which runs no real
-  /// crane.
+  /// The processes of the loop inherit the descriptor of the ledger. Unused in lockstep.
   std::shared_ptr<bus::Ledger> ledger = bus::Ledger::create();
 };
 

@@ -7,10 +7,13 @@
 /// client, request id and start-up number cannot take over the session by sending first.
 ///
 /// A sample with `engaged` = false or with a tick ahead of `tick` releases the stick. During a silence of
-/// more than kSilence_s, the deflection is 0. The stick is faulty when a deflection follows such a silence,
-/// with a tick older than kSilence_s, with a deflection that is not in [-1, 1], or when the stick has been
-/// deflected for kLongest_s without a break. A faulty stick counts as released until the operator releases
-/// the stick: the motion does not resume by itself.
+/// more than kSilence_s, the deflection is 0. The stick is faulty after
+///   (1) a deflection that follows a longer silence,
+///   (2) a sample with a tick older than kSilence_s,
+///   (3) a deflection outside [-1, 1],
+///   (4) a deflection of kLongest_s without a break.
+/// A faulty stick counts as released until the operator releases it or returns it to zero: the motion does
+/// not resume by itself.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -80,7 +83,7 @@ class JogSession {
   std::optional<double> last_sample_s_;  ///< time of the last sample; nothing: no sample has arrived since
                                          ///< the stick was released
   bool engaged_ = false;
-  bool faulty_ = false;  ///< true: the stick is faulty; ends when the operator releases the stick
+  bool faulty_ = false;  ///< true: the stick is faulty, until the operator releases it or returns it to zero
   Deflection deflection_{};
 };
 

@@ -2,12 +2,14 @@
 /// Detects another supervisor of the same crane, at the start and later. No I/O and no clock; the
 /// time is an argument.
 ///
-/// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). A new
-/// supervisor exits (yields()) beside an established supervisor, which may be in use. If both are new, the
-/// supervisor with the larger start-up number exits. At most one of two supervisors exits: only a new
-/// supervisor exits, an established one never becomes new again, and two start-up numbers differ. A sample of
-/// crane/node alone ends no supervisor, because several processes may write it. crane/supervisor has
-/// one writer, and keys authenticate this writer.
+/// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). A
+/// supervisor is new at its start and established afterwards (kNew_s). Which of two supervisors exits
+/// (yields()):
+///   two new ones               the one with the larger start-up number
+///   a new and an established   the new one
+///   two established ones       none
+/// A sample of crane/node alone ends no supervisor, because several processes may write it. crane/supervisor
+/// has one writer, and keys authenticate this writer.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -11,8 +11,8 @@ inline constexpr std::uint16_t kConverterZero = 0x1000;
 inline constexpr std::uint16_t kConverterLargest = 0x1FFF;
 inline constexpr double kConverterRange_v = 10;
 
-/// Code of a voltage: clamp(0x1000 - round(V / 10 * 0x1000), 0, 0x1FFF). A voltage that is not finite gives 0
-/// V.
+/// Code of a voltage: clamp(0x1000 - round(V / 10 * 0x1000), 0, 0x1FFF). A voltage that is not finite has the
+/// code of 0 V.
 [[nodiscard]] inline std::uint16_t converter_code(double voltage_v) noexcept {
   if (!std::isfinite(voltage_v)) return kConverterZero;
   const double steps = std::round(voltage_v / kConverterRange_v * kConverterZero);

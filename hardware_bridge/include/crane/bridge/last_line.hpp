@@ -67,13 +67,12 @@ inline constexpr std::size_t kReasons = 15;
 /// the latch, and the positions of these axes stay unknown until homing.
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
-/// Parameters of one drive axis; unit is m or rad. A limit switch that operates farther inside the travel
-/// than the soft margin indicates a wrong position.
+/// Parameters of one drive axis; unit is m or rad.
 struct AxisLine : control::DriveLimits {
-  double certain_motion_v = 5;     ///< a larger voltage moves the axis against any friction and load
-  double creeping_motion_v = 2;    ///< as certain_motion_v, during homing of the axis
-  double response_margin_v = 2.5;  ///< gain of speed beyond that of the commands that indicates a fault, as
-                                   ///< voltage
+  double certain_motion_v = 5;   ///< a larger voltage moves the axis against any friction and load
+  double creeping_motion_v = 2;  ///< as certain_motion_v, during homing of the axis
+  /// V: a fault if the axis accelerates as with this voltage more than commanded
+  double response_margin_v = 2.5;
   /// Smallest and largest gain: unit/s^2 per volt when lag_s is 0, otherwise unit/s per volt.
   double gain_low = 0;
   double gain_high = 0;
@@ -150,8 +149,8 @@ class LastLine {
                                const Observation& observation) noexcept;
 
   /// The latched reason. A latch that is not final ends when fresh commands with 0 V and closed brakes first
-  /// withhold and then grant the watchdog permission. The supervisor withholds the permission in STOP_C0, and
-  /// grants it after the reset by the operator.
+  /// withhold and then grant the watchdog permission, and no second writer is detected. The supervisor
+  /// withholds the permission in STOP_C0, and grants it after the reset by the operator.
   [[nodiscard]] Reason reason() const { return reason_; }
   /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }

@@ -15,8 +15,8 @@ namespace crane::bridge {
 /// and so do the start and the first reading
 class CountUnwrapper {
  public:
-  /// @param start  expected counts of the first reading, which select among the values that a 24-bit counter
-  ///   shows as the same reading
+  /// @param start  the first reading counts as the value nearest to `start` that the 24-bit counter can show
+  ///   as this reading
   explicit CountUnwrapper(std::int64_t start = 0) : counts_{start} {}
   [[nodiscard]] std::int64_t step(std::int32_t raw_counts) noexcept;
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Names of all protections of supervisor, bridge and bus. A build with CRANE_MUTATION can disable one
-/// protection; tests/campaign then shows that a fault violates an invariant without this protection. In every
-/// other build, `enabled` is the constant true, and the compiler removes the check.
+/// Names of the protections that are no rules of the supervisor (supervisor/src/rules.cpp names those). A
+/// build with CRANE_MUTATION can disable one protection; tests/campaign then shows that a fault violates an
+/// invariant without it. In every other build, `enabled` is true, and the compiler removes the check.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace crane::protection {
 
-// Supervisor: command echo, gate, requests and brakes; supervisor/src/rules.cpp names the rules.
+// Supervisor: command echo, gate, requests and brakes.
 // Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: checksum, writer binding, ledger.
 #define CRANE_PROTECTIONS(X)   \
   X(supervisor_echo)           \

@@ -38,10 +38,9 @@ struct GateOutput {
   bool near_zero = false;  ///< true: usable demand, all present axes within arm_volt_limit_v
 };
 
-/// A finite value beyond the range is limited to the range: gain scheduling demands 12.8 V of a 10 V drive in
-/// an ordinary maneuver. A demand with a value that is not finite, or that exceeds kRejectionRatio times the
-/// limit of its drive, is rejected as a whole. Without a usable demand the last output is held until `cause`
-/// stops the crane.
+/// Executes the stages of docs/safety.md#the-gate-and-the-stopping-distance up to the stopping envelope. A
+/// demand with a value that is not finite, or that exceeds kRejectionRatio times the limit of its drive, is
+/// rejected as a whole. Without a usable demand the last output is held until `cause` stops the crane.
 /// @post memory.last_v is unchanged: the caller stores the voltage that it sends
 [[nodiscard]] GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory) noexcept;
 

@@ -19,7 +19,7 @@ enum class Moves : std::uint8_t {
   all
 };
 
-/// Longest move of Moves::short_steps, m: an inching step of 20 mm plus a position error of 10 mm at rest.
+/// Longest move of Moves::short_steps, m: an inching step of up to 20 mm plus a position error of 10 mm.
 /// Slew axis: m of arc at the present radius of the trolley, at least kShortestRadius_m.
 inline constexpr double kShortStep_m = 0.03;
 /// At radius 0, a step of the slew axis would have no finite angle.

@@ -49,7 +49,7 @@ struct Inputs {
   bool relay_closed = false;         ///< the relay is still closed although its permission is withheld
   bool moved_while_arming = false;   ///< an axis moved while the brakes were being opened
   bool demand_near_zero = false;     ///< true: the demand matches a crane at rest
-  bool brakes_open = false;          ///< true: every present brake reports open
+  bool brakes_open = false;          ///< true: every brake that arming opens reports open
   bool brakes_closed = true;         ///< true: every present brake reports closed
   bool standstill = false;           ///< true: every present axis is at rest
   bool reference_moving = false;     ///< true: a move or a session of the stick is in progress

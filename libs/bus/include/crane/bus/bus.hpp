@@ -78,11 +78,11 @@ class Bus {
   bool wait(std::chrono::nanoseconds timeout);
 
   /// From now on, the bus calls `on_arrival` for each sample that arrives at one of its subscribers, and
-  /// wait() sleeps until its timeout. The caller is a receive thread of the vendor, which may hold locks, or
-  /// a thread of this process that publishes. Several threads may call at the same time: `on_arrival` must
-  /// ensure that its calls of take and publish do not overlap (crane/runtime/turn.hpp), and must not wait for
-  /// another thread. `on_arrival` may publish other topics, but not `topic`: Cyclone DDS runs one callback of
-  /// a reader at a time, and the callback of the new sample would wait for the present one forever.
+  /// wait() sleeps until its timeout. Receive threads of the vendor, which may hold locks, and publishing
+  /// threads of this process call `on_arrival`, also at the same time. `on_arrival` must not overlap its
+  /// calls of take and publish (crane/runtime/turn.hpp), wait for another thread, or publish `topic`. Reason
+  /// of the last rule: Cyclone DDS runs one callback of a reader at a time, and the callback of the new
+  /// sample would wait for the present one forever.
   /// @pre no subscriber of this bus exists
   void call_on_arrival(ArrivalHandler on_arrival);
 

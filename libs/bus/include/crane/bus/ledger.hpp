@@ -4,11 +4,11 @@
 ///
 /// Without keys, every program on the bus can send packets in the name of any DDS writer. Therefore each
 /// process of the loop enters the digest of each sample of a loop topic in the ledger before it sends the
-/// sample. Subscriber::take() returns every intact sample; SampleInfo::entered states whether its digest is
-/// in the ledger. The loop (runtime::LoopReader) refuses a sample whose digest is not in the ledger: only a
-/// process with access to the ledger can send an accepted sample. The digest is
-/// SipHash-2-4 of all fields, the topic and the version of the messages, with a random key that only the
-/// ledger contains.
+/// sample. Subscriber::take() returns every intact sample and states in SampleInfo::entered whether the
+/// ledger contains it. runtime::LoopReader drops a sample that the ledger does not contain.
+///
+/// The digest is SipHash-2-4 of all fields, the topic and the version of the messages, with a random key
+/// that only the ledger contains.
 ///
 /// The ledger is an anonymous file (memfd_create) with mode 0600. `crane up` passes its descriptor to the
 /// processes of the loop only. Programs of the same user can still open it, because they can also trace and

@@ -55,7 +55,7 @@ struct Options {
   /// needs no credentials.
   std::optional<Credentials> credentials{};
   /// Loop topics: publishers enter their samples, subscribers report whether a sample was entered
-  /// (SampleInfo::entered). Null: no sample is entered.
+  /// (SampleInfo::entered). Null: there is no ledger, and `entered` is true.
   std::shared_ptr<Ledger> ledger{};
   /// Announced to all participants and part of every CRC. Only tests set another value.
   std::uint32_t messages_version = crane_MESSAGES_VERSION;
@@ -84,9 +84,9 @@ using EventHandler = std::function<void(const Event&)>;
 
 /// Quality of service of one endpoint beyond that of its topic.
 struct EndpointOptions {
-  /// Publisher: keeps its samples for late-joining readers (loop and script topics; publishers of log and
-  /// status topics always do). Subscriber: also receives samples that were published before it joined, from
-  /// publishers that kept them (subscribers of status topics always do).
+  /// Publisher: keeps its samples for late-joining readers. For loop and script topics (idl/README.md);
+  /// publishers of log and status topics always keep them. Subscriber: also receives samples that publishers
+  /// kept from the time before it joined; subscribers of status topics always do.
   bool history = false;
   /// EventKind::deadline_missed when no sample arrives for this time; 0: no deadline. A reader matches only
   /// writers that offer a deadline and a lease at least as short. The memory back end has no clock and

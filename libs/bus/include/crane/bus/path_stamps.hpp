@@ -31,7 +31,7 @@ struct PathRecord {
 /// @return index of the topic in topics::kAll
 [[nodiscard]] std::size_t index_of(std::string_view topic);
 
-/// Writes the records of one process. All functions except arrived() are called by the thread of the bus.
+/// Writes the records of one process. Any thread may call arrived(); the thread of the bus calls the others.
 class PathStamps {
  public:
   /// @param file  of a PathStampReader. @throws Error
@@ -41,7 +41,7 @@ class PathStamps {
   PathStamps& operator=(const PathStamps&) = delete;
 
   [[nodiscard]] static std::int64_t now_ns();
-  /// Call when the vendor has delivered a sample. Any thread may call this function.
+  /// Call when the vendor has delivered a sample.
   void arrived(std::string_view topic);
   void polled(std::int64_t time_ns);
   void took(std::int64_t begin_ns, std::int64_t taken_ns, std::int64_t checked_ns);

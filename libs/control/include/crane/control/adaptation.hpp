@@ -39,9 +39,9 @@ enum class AdaptationFreeze : std::uint8_t {
 
 /// One direction of motion, since the start.
 struct DirectionReport {
-  FrictionLevels estimate, deviation;  ///< deviation: standard deviations
-  FrictionLevels used;                 ///< levels of the compensation, before its factor
-  std::uint32_t blocks = 0, break_aways = 0;
+  FrictionLevels estimate, deviation;         ///< deviation: standard deviations
+  FrictionLevels used;                        ///< levels of the compensation, before its factor
+  std::uint32_t blocks = 0, break_aways = 0;  ///< accepted blocks (docs/adaptation.md#force-balance)
 };
 
 struct AxisReport {
@@ -67,10 +67,10 @@ struct AdaptationReport {
   std::uint32_t moves = 0;
 };
 
-/// Measurement of one tick, and the demand that acts from this tick on.
+/// Measurement of one tick, and the demand of the previous tick, whose command acts from this tick on.
 struct AdaptationInput {
   Measurement measured;
-  Volts demand_v{};  ///< demand of the previous tick; its command acts from this tick on
+  Volts demand_v{};                        ///< demand of the previous tick
   std::array<bool, kAxes> brake_closed{};  ///< true: the brake holds the axis
   bool consecutive = false;                ///< true: the previous tick was processed, and its command acts
 };

@@ -14,7 +14,7 @@ struct AdaptationSettings {
   bool operator==(const AdaptationSettings&) const = default;
 };
 
-// With at most 0.9, a compensated level keeps its sign and a tenth of its size.
+// At most 0.9: each level stays positive, at least a tenth of that of the rig file.
 inline constexpr std::array<fields::Field<AdaptationSettings>, 3> kAdaptationFields{{
     {.key = "enabled",
      .member = &AdaptationSettings::enabled,

@@ -3,7 +3,7 @@
 
 namespace crane::control {
 
-/// Relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1.
+/// Largest |true - measured| / measured cable length: 0.5, with a margin of 10 %.
 inline constexpr double kCableTolerance = 0.55;
 
 }  // namespace crane::control

@@ -6,8 +6,9 @@
 ///   v >  d_s:    c+ + b+ v                          (3.1), corrected signs
 ///   v < -d_s:   -c- + b- v
 ///   |v| <= d_s:  f_s+ tanh(A V) for V > 0,  f_s- tanh(A V) for V < 0
-/// The last line differs from (3.2), f_sh + f_s tanh(A V) with f_s = (f_s+ + f_s-)/2 and f_sh = (f_s+ -
-/// f_s-)/2. Both have the same limits for large |V|. At V = 0 the source has f_sh, which moves a drive with
+/// The last line differs from (3.2), f_sh + f_s tanh(A V) with
+///   f_s = (f_s+ + f_s-)/2,   f_sh = (f_s+ - f_s-)/2
+/// Both have the same limits for large |V|. At V = 0 the source has f_sh, which moves a drive with
 /// unequal friction without a control voltage; here the compensation is 0.
 #include "crane/control/law.hpp"
 

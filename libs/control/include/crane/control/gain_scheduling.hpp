@@ -67,9 +67,9 @@ struct ForwardGains {
   double slew = 0;     ///< V/rad
 };
 
-/// Forward gain K of the full-state feedback for the present move: full_state_forward_gain_vpm, or smaller
-/// when K |reference - start| would exceed available_control_v(). Tracking and anti-swing get reference and
-/// start from the same crane/reference, and therefore the same K.
+/// Forward gain of the full-state feedback for the present move: the largest K up to
+/// full_state_forward_gain_vpm with K |reference - start| <= available_control_v(). Tracking and anti-swing
+/// get reference and start from the same crane/reference, and therefore the same K.
 [[nodiscard]] ForwardGains forward_gains(const Design& design, const Reference& reference) noexcept;
 
 /// Gains of both axes at one operating point. The swing gains of the slew axis are K_phi, K_phi' times

@@ -43,8 +43,8 @@ struct SwingReference {
   double radial_rad = 0, radial_radps = 0, tangential_rad = 0, tangential_radps = 0;
 };
 
-/// Reference of all axes, indexed by axis. A plan also contains the swing and the volts of its motion at the
-/// time when the command of the tick acts; in other references both are 0.
+/// Reference of all axes, indexed by axis. A time-optimal plan and the stick also state swing and volts of
+/// the planned motion at the time when the command of the tick acts; in other references both are 0.
 struct Reference : std::array<AxisReference, kAxes> {
   SwingReference swing;
   Volts feed_forward_v{};  ///< V, without the compensation of friction
@@ -56,9 +56,9 @@ struct Contribution {
   Reference correction{};  ///< added to the reference of tracking (only with Controller::corrects_reference)
 };
 
-/// A law with its memory. step() must not allocate or throw. With finite input and a design without problems,
-/// the output must be finite. With non-finite input, the output may be non-finite: the gate of the supervisor
-/// rejects it.
+/// A law with its memory.
+/// docs/adding_a_law.md#the-rules-of-a-law lists the rules of step() and reset().
+/// tests/control/law_test.cpp checks these rules.
 class Law {
  public:
   virtual ~Law() = default;

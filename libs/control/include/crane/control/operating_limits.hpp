@@ -19,8 +19,8 @@ struct OperatingLimits {
 inline constexpr fields::Range kSwingLimits = fields::Range::above(0, plant::kSwings.high);
 /// At most one day.
 inline constexpr fields::Range kIdleTimes = fields::Range::above(0, 86400);
-/// The crane must stop within 0.1 s when commands or demands end: at 1 m/s it moves 0.1 m in this time, the
-/// smallest soft margin of the deployed rigs.
+/// At most 0.1 s: at 1 m/s an axis moves 0.1 m in this time, the smallest soft margin of the deployed
+/// rigs.
 inline constexpr fields::Range kSilences = fields::Range::above(0, 0.1);
 
 inline constexpr std::array kOperatingLimitFields{

@@ -59,8 +59,8 @@ class PendulumObserver {
   bool started_ = false;
 };
 
-/// Predicted measurement at the time when the command acts. The swing angles are relative to the angle at
-/// which the unknown force holds the load, so that wind does not displace the crane.
+/// Predicted measurement at the time when the command acts. The swing angles are phi - e and theta - e: wind
+/// does not displace the crane.
 [[nodiscard]] Measurement at_effect(const CraneEstimate& estimate) noexcept;
 
 /// Wraps the law in a pendulum observer. Returns a law that already has an observer unchanged.

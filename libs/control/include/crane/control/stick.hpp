@@ -1,12 +1,12 @@
 #pragma once
-/// Stick mode: an operator commands the speeds of trolley, slew and hoist. The load comes to rest together
-/// with the axes.
+/// Stick mode: an operator commands the speeds of trolley, slew and hoist. With zv or zvd and the exact
+/// cable length, the load comes to rest together with the axes.
 ///
 /// 1. The unshaped speed u of each axis follows the commanded speed (`wanted`). An input shaper (shaper.hpp)
 ///    delays parts of each change of u,
 ///      v(t) = sum_i w_i u(t - t_i),   zv: w = 1/2, 1/2; t = 0, T/2   (Singer and Seering 1990)
 ///    The weights w_i are positive and their sum is 1, so that v stays between the smallest and the largest
-///    u. The law limits each change of u such that |dv/dt| stays below the acceleration limit in every tick.
+///    u. The law limits each change of u so that |dv/dt| stays below the acceleration limit in every tick.
 ///    T is the swing period of the longest cable of the session, rounded up to an even number of ticks. The
 ///    hoist causes no swing and is not shaped.
 /// 2. The integral of v is the shaped coordinate s. A load coordinate q (radius or angle of the load) follows

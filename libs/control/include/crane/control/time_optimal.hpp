@@ -7,8 +7,8 @@
 /// that volts without influence on T are zero. The limits on volts, swing, speed and position hold at the
 /// ends of the intervals.
 /// Solver: primal-dual interior point method. A Riccati recursion over the intervals solves the Newton step,
-/// so that the effort is proportional to N. The result does not depend on a clock: equal problems have equal
-/// plans.
+/// so that the computation time is proportional to N. The result does not depend on a clock: equal problems
+/// have equal plans.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>

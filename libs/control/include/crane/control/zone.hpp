@@ -144,8 +144,8 @@ struct ReachedSpace {
 [[nodiscard]] double clearance_m(const Zone& zone, const ReachedSpace& reach,
                                  double suspension_height_m) noexcept;
 
-/// Space of a load that hangs at rest below this suspension point. Steady wind deflects the load by f L / g,
-/// a gust by 2 f L / g, with f = wind_mps2 and L = (1 + cable_error) cable_m. @param gravity_mps2  > 0
+/// Space of a load that hangs at rest below this suspension point. Its radius contains the deflection by a
+/// gust, 2 f L / g, with f = wind_mps2 and L = (1 + cable_error) cable_m. @param gravity_mps2  > 0
 [[nodiscard]] ReachedSpace resting_reach(const Clearance& clearance, double gravity_mps2, double trolley_m,
                                          double slew_rad, double cable_m) noexcept;
 

@@ -17,7 +17,7 @@ namespace crane::recording {
 struct Column {
   std::string name;  ///< "applied_v", "axis.position"
   Kind kind = Kind::float64;
-  bool array = false;                    ///< also of one element
+  bool array = false;                    ///< true: the field is an array, possibly of one element
   std::size_t width = 0;                 ///< elements of one sample
   std::vector<std::string> units;        ///< by element; empty texts: none
   std::string enumeration;               ///< name of its type; empty: no enumeration

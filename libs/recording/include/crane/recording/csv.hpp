@@ -3,9 +3,9 @@
 /// any subset of the canonical columns, with `time_s` first, and then other columns. The sampling may be
 /// non-uniform. Row k has the measurement at t_k and the voltage that acts from t_k on. Each number is
 /// written as the shortest text that gives the same double when read. Equal data therefore give equal bytes.
-/// An empty cell and `nan` are read as NaN. The reader also accepts semicolons or tabs as separators, if they
-/// are the most frequent ones of the header, with decimal commas. A date with time of day (ISO 8601) is read
-/// as seconds since 1970.
+/// An empty cell and `nan` are read as NaN. The reader takes the most frequent of comma, semicolon and tab in
+/// the header as separator. With semicolons or tabs, it also accepts decimal commas. A date with time of day
+/// (ISO 8601) is read as seconds since 1970.
 #include <array>
 #include <cstddef>
 #include <filesystem>

@@ -11,21 +11,16 @@
 
 namespace crane::recording {
 
-enum class LossCause : std::uint8_t {
-  queue_full,    ///< the recorder dropped the samples: its disk was too slow
-  dds_lost,      ///< DDS reported the samples as lost (SAMPLE_LOST)
-  wrong_crc,     ///< the recorder rejected the samples: their CRC-32C was wrong
-  file_removed,  ///< the file that contained the samples was deleted while the recorder wrote it
-  tick_gap       ///< ticks are missing between two samples of a writer without any other cause: the recorder
-                 ///< paused until its reader overwrote samples, or the loop was late and skipped the ticks
-};
+/// Cause of a loss. docs/data.md#missing-samples describes each.
+enum class LossCause : std::uint8_t { queue_full, dds_lost, wrong_crc, file_removed, tick_gap };
 [[nodiscard]] std::string_view to_string(LossCause cause);
 
 struct Loss {
   std::string topic;
   LossCause cause = LossCause::queue_full;
   std::uint64_t samples = 0;
-  std::int64_t from_ns = 0, until_ns = 0;  ///< log times at which the recorder noticed the first and the last
+  /// log times at which the recorder noticed the first and the last missing sample
+  std::int64_t from_ns = 0, until_ns = 0;
 };
 
 inline constexpr std::string_view kLossTopic = "recorder/loss";

@@ -17,8 +17,8 @@ class EditError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A range of log time, in s from the first message of the recording: from_s <= t < until_s. Consecutive
-/// ranges contain each message once.
+/// A range of log time, in s from the first message of the recording, as of `crane log cut`
+/// (docs/data.md#recordings).
 struct TimeRange {
   double from_s = 0;
   double until_s = std::numeric_limits<double>::infinity();
@@ -32,9 +32,8 @@ struct TimeRange {
 /// @throws ReadError, WriteError; EditError when no message is within the range
 CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const std::filesystem::path& out);
 
-/// Merges the messages in the order of log time. Messages with equal times keep the order in which the
-/// recordings are named. Equal metadata and attachments are stored once. Adds the metadata record "merge"
-/// with the names of the files.
+/// Merges recordings, as `crane log merge` (docs/data.md#recordings). Adds the metadata record "merge" with
+/// the names of the files.
 /// @return number of copied messages, and the damage of all files
 /// @throws ReadError, WriteError; EditError when one recording is named twice, or two recordings have
 ///   different schemas of one type, different types of one topic, different attachments of one name, or

@@ -50,7 +50,7 @@ class RunTable {
 [[nodiscard]] std::string missing_ticks(const Table& table);
 
 /// Version of the messages in a recording: crane::MESSAGES_VERSION of its schema. Nothing: the recording has
-/// no crane topics, or is older than the first version; its topics are those of version 1.
+/// no crane topics, or its schema defines no MESSAGES_VERSION, which counts as version 1.
 [[nodiscard]] std::optional<std::uint32_t> messages_version(const McapReader& recording);
 
 /// Table of a recorded run.
