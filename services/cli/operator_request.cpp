@@ -18,16 +18,10 @@ std::uint64_t first_id() {
   return (now_us << kPidBits) | (static_cast<std::uint64_t>(::getpid()) & kPidMask);
 }
 
-bool may_be_repeated(crane_RequestKind kind) {
-  return kind == crane_REQUEST_STOP || kind == crane_REQUEST_ESTOP;
-}
-
-bool stops_crane(crane_RequestKind kind) { return may_be_repeated(kind) || kind == crane_REQUEST_DISARM; }
-
 /// Another program on the bus can prevent every answer, and expired keys prevent the request. Ending the
 /// stack needs neither bus nor keys.
 std::string without_bus(crane_RequestKind kind) {
-  return stops_crane(kind)
+  return runtime::stops_crane(kind)
              ? "; to stop the crane without the bus, end `crane up` (Ctrl-C, or `systemctl stop "
                "crane`)"
              : "";
@@ -60,7 +54,7 @@ class Conversation {
     std::optional<Answer> answer;
     wait_until(bus_, timeout_s, [&] {
       const auto now_ns = runtime::monotonic_ns();
-      if (sent_.empty() || (may_be_repeated(wanted_.kind) && now_ns >= repeat_at_ns)) {
+      if (sent_.empty() || (runtime::is_urgent_stop(wanted_.kind) && now_ns >= repeat_at_ns)) {
         hear_supervisor();
         sent_.push_back(client_.send(wanted_));
         repeat_at_ns = now_ns + kRepeat_ns;
@@ -91,7 +85,7 @@ class Conversation {
     hear_supervisor();
     while (planner_ && planner_->take()) heard_reference_ = true;
     if (client_.listeners() == 0 || client_.answerers() == 0) return false;
-    if (may_be_repeated(wanted_.kind)) return true;
+    if (runtime::is_urgent_stop(wanted_.kind)) return true;
     if (!heard_supervisor_ || !heard_planner()) return false;
     client_.receive();
     if (client_.take_reply(stack::OperatorClient::kProbe, crane_SOURCE_SUPERVISOR)) return true;

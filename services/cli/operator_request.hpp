@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/tool_bus.hpp"
+#include "crane/runtime/request_kinds.hpp"
 #include "stack/operator_client.hpp"
 
 namespace crane::cli {
@@ -29,8 +30,8 @@ class NoAnswer : public std::runtime_error {
 [[nodiscard]] std::string client_name();
 
 struct Patience {
-  double find_s = 5;   ///< longest time for the discovery of the receivers
-  double reply_s = 2;  ///< longest time for the reply
+  double find_s = 5;                         ///< longest time for the discovery of the receivers
+  double reply_s = runtime::kRequestLife_s;  ///< longest time for the reply
 };
 
 /// Sends the request and waits for the answer. A stop or emergency stop is sent as soon as crane/request has

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/request_kinds.hpp"
 #include "dashboard/packed_samples.hpp"
 #include "dashboard/page_files.hpp"
 #include "dashboard/request_text.hpp"
@@ -49,7 +50,7 @@ bool has_type(const ApiRequest& request, std::string_view wanted) {
 
 /// @throws BadRequest when the body is no request
 bool stops(const ApiRequest& request) {
-  return request.target == "/api/request" && is_stop(operator_request_of(request.body).kind);
+  return request.target == "/api/request" && runtime::is_urgent_stop(operator_request_of(request.body).kind);
 }
 
 std::size_t topic_index(const std::string& name) {
@@ -199,15 +200,14 @@ void Api::request(const ApiRequest& request, AnswerHandler answer) {
   const auto reply_with = [answer](const Reply& reply) {
     answer(json_answer({{"accepted", reply.accepted}, {"reason", reply.reason}}));
   };
-  if (!is_stop(wanted.kind)) {
+  if (!runtime::is_urgent_stop(wanted.kind)) {
     const auto now_ns = runtime::monotonic_ns();
-    const bool disarms = wanted.kind == crane_REQUEST_DISARM;  // obeyed at any age
     if (!model_.seat().renew(request.seat_key, now_ns))
       return answer(problem_answer(409, "take the controls first: one operator at a time"));
     // An interrupted connection can deliver a request late. The supervisor compares this tick with the last
     // stop. Without a supervisor, the answer of RequestSender names the remedy.
     const auto seen = model_.situation().status_of(request.seen, now_ns);
-    if (!seen && !disarms && model_.situation().hears_supervisor(now_ns))
+    if (!seen && !runtime::stops_crane(wanted.kind) && model_.situation().hears_supervisor(now_ns))
       return reply_with(
           {false, request.seen.empty()
                       ? "the header X-Crane-Seen is missing: state the newest status that has arrived (GET "

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/request_kinds.hpp"
 #include "dashboard/request_text.hpp"
 #include "experiments/realtime_session.hpp"
 
 namespace crane::dashboard {
 namespace {
 
-constexpr std::int64_t kPatience_ns = 2'000'000'000;  // longest wait for an answer, as in the commands
-constexpr std::int64_t kRepeat_ns = 100'000'000;      // period of the repetition of an unanswered stop
+constexpr std::int64_t kRepeat_ns = 100'000'000;  // period of the repetition of an unanswered stop
 
 }  // namespace
 
@@ -21,10 +21,10 @@ RequestSender::RequestSender(bus::Bus& bus)
     : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()} {}
 
 void RequestSender::send(const stack::OperatorRequest& wanted, Answered answered) {
-  if (is_stop(wanted.kind)) {
+  if (runtime::is_urgent_stop(wanted.kind)) {
     if (auto* same = same_stop(wanted.kind)) return same->answered.push_back(std::move(answered));
   } else if (std::ranges::count_if(pending_, [](const Pending& p) {
-               return !p.done && !is_stop(p.wanted.kind);
+               return !p.done && !runtime::is_urgent_stop(p.wanted.kind);
              }) >= static_cast<std::ptrdiff_t>(kMostWaiting)) {
     return answered({false, "too many requests wait for the supervisor: try again"});
   }
@@ -45,7 +45,7 @@ void RequestSender::poll(std::int64_t now_ns) {
   for (auto& pending : pending_) advance(pending, now_ns);
   // An answered stop remains in the list while answers to its repetitions may arrive.
   std::erase_if(pending_, [&](const Pending& pending) {
-    return (pending.done && pending.ids.empty()) || now_ns - pending.sent_ns > kPatience_ns;
+    return (pending.done && pending.ids.empty()) || now_ns - pending.sent_ns > runtime::kRequestLife_ns;
   });
 }
 
@@ -56,15 +56,16 @@ void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
   };
   while (const auto reply = take_reply(pending)) finish(*reply);
   if (pending.done) return;
-  if (now_ns - pending.sent_ns > kPatience_ns)
+  if (now_ns - pending.sent_ns > runtime::kRequestLife_ns)
     return finish({false, client_.listeners() == 0
                               ? "no supervisor is found: start a stack with `crane up`"
                               : "the supervisor did not answer within 2 s: look whether its ticks advance"});
-  const bool due = pending.ids.empty() || (is_stop(pending.wanted.kind) && now_ns >= pending.repeat_ns);
+  const bool due =
+      pending.ids.empty() || (runtime::is_urgent_stop(pending.wanted.kind) && now_ns >= pending.repeat_ns);
   if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
-/// If the middleware refuses the request, the next poll tries again until kPatience_ns is over.
+/// If the middleware refuses the request, the next poll tries again until kRequestLife_ns is over.
 void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   try {
     pending.ids.push_back(pending.ids.empty() ? client_.send(pending.wanted)

@@ -109,6 +109,4 @@ stack::OperatorRequest operator_request_of(std::string_view text) {
   return wanted;
 }
 
-bool is_stop(crane_RequestKind kind) { return kind == crane_REQUEST_STOP || kind == crane_REQUEST_ESTOP; }
-
 }  // namespace crane::dashboard

@@ -17,7 +17,4 @@ class BadRequest : public std::runtime_error {
 /// "mode" (with "mode") or "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
 [[nodiscard]] stack::OperatorRequest operator_request_of(std::string_view body);
 
-/// True for stop and emergency stop, which need no seat.
-[[nodiscard]] bool is_stop(crane_RequestKind kind);
-
 }  // namespace crane::dashboard

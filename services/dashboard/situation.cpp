@@ -5,6 +5,7 @@
 
 #include "crane/bridge/last_line.hpp"
 #include "crane/plant/coordinates.hpp"
+#include "crane/runtime/request_kinds.hpp"
 #include "crane/supervisor/explain.hpp"
 #include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/states.hpp"
@@ -66,7 +67,7 @@ void Situation::add(const observation::Sample& sample) {
     supervisor_ = status;
     supervisor_ns_ = sample.arrival_time_ns;
     statuses_.push_back({status.header, supervisor_ns_});
-    while (supervisor_ns_ - statuses_.front().arrival_ns > kSeen_ns) statuses_.pop_front();
+    while (supervisor_ns_ - statuses_.front().arrival_ns > runtime::kRequestLife_ns) statuses_.pop_front();
   } else if (msg::State state; decode(topics::state, sample, state)) {
     state_ = state;
     state_ns_ = sample.arrival_time_ns;
@@ -76,7 +77,7 @@ void Situation::add(const observation::Sample& sample) {
 std::optional<msg::Header> Situation::status_of(std::string_view seen, std::int64_t now_ns) const {
   const auto found = std::find_if(statuses_.rbegin(), statuses_.rend(),
                                   [seen](const Arrived& arrived) { return mark_of(arrived.header) == seen; });
-  if (found == statuses_.rend() || now_ns - found->arrival_ns > kSeen_ns) return std::nullopt;
+  if (found == statuses_.rend() || now_ns - found->arrival_ns > runtime::kRequestLife_ns) return std::nullopt;
   return found->header;
 }
 

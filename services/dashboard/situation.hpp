@@ -19,10 +19,8 @@ class Situation {
   /// JSON of the situation. Two texts differ only when information for the operator differs.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
-  /// A request may name a status that arrived at most this long ago: RequestInbox::kLongestAge_s.
-  static constexpr std::int64_t kSeen_ns = 2'000'000'000;
   /// @param seen  "EPOCH-TICK" of a crane/supervisor: a tick alone would also name a tick of another run
-  /// @return its header; nothing when it has not arrived within kSeen_ns
+  /// @return its header; nothing when it has not arrived within runtime::kRequestLife_ns
   [[nodiscard]] std::optional<msg::Header> status_of(std::string_view seen, std::int64_t now_ns) const;
   /// @return true when a crane/supervisor has arrived within kSilent_ns
   [[nodiscard]] bool hears_supervisor(std::int64_t now_ns) const {
@@ -39,7 +37,7 @@ class Situation {
     msg::Header header;
     std::int64_t arrival_ns;
   };
-  std::deque<Arrived> statuses_;                   ///< of the last kSeen_ns, oldest first
+  std::deque<Arrived> statuses_;                   ///< of the last kRequestLife_ns, oldest first
   std::int64_t supervisor_ns_ = 0, state_ns_ = 0;  ///< monotonic arrival
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/request_kinds.hpp"
 #include "crane/supervisor/states.hpp"
 
 namespace crane::experiments {
@@ -136,7 +137,7 @@ std::string RealtimeSession::refusal_of(const stack::OperatorRequest& wanted, co
   last_id_ = id;
   std::optional<msg::Reply> reply;
   if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },
-             std::chrono::seconds{2}))
+             std::chrono::nanoseconds{runtime::kRequestLife_ns}))
     throw SessionError(what + ": the supervisor does not answer");
   return reply->accepted ? "" : reply->reason;
 }

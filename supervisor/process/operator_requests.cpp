@@ -66,12 +66,12 @@ void OperatorRequests::change_mode(const msg::Request& request, State state) {
 
 bool OperatorRequests::stop_requested() const {
   return std::ranges::any_of(due_,
-                             [](const DueRequest& due) { return runtime::RequestInbox::stops(due.request); });
+                             [](const DueRequest& due) { return runtime::stops_crane(due.request.kind); });
 }
 
 void OperatorRequests::refuse_beside_stops(TickInput& input) {
   std::erase_if(due_, [&](const DueRequest& due) {
-    if (runtime::RequestInbox::stops(due.request)) return false;
+    if (runtime::stops_crane(due.request.kind)) return false;
     input.requests[static_cast<std::size_t>(*request_of(due.request.kind))] = false;
     answer(due.request, false,
            "a stop was requested in the same tick: look at the crane and repeat the request");

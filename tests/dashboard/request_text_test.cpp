@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "crane/runtime/request_kinds.hpp"
+
 namespace crane::dashboard {
 namespace {
 
@@ -31,7 +33,7 @@ TEST(RequestText, ModeIsNamed) {
 TEST(RequestText, OnlyStopsNeedNoSeat) {
   for (const auto* kind : {"reset", "arm", "disarm", "stop", "estop"}) {
     const auto wanted = operator_request_of(R"({"kind":")" + std::string{kind} + "\"}");
-    EXPECT_EQ(is_stop(wanted.kind), std::string_view{kind}.ends_with("stop")) << kind;
+    EXPECT_EQ(runtime::is_urgent_stop(wanted.kind), std::string_view{kind}.ends_with("stop")) << kind;
   }
 }
 

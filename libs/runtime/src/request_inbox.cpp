@@ -7,7 +7,7 @@
 namespace crane::runtime {
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
     : schedules_{context.clock != Clock::realtime},
-      ticks_{kLongestAge_s, context.rig.period_s},
+      ticks_{kRequestLife_s, context.rig.period_s},
       requests_{context.ports.input(topics::request)},
       replies_{context.ports.output(topics::reply)},
       kinds_{kinds} {}
@@ -22,14 +22,15 @@ bool RequestInbox::receive() {
     if (!info.valid || !topics::may_write(topics::request.description, request->header.source)) continue;
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
-    if (!schedules_ && stops(*request)) request->apply_tick = 0;
+    if (!schedules_ && stops_crane(request->kind)) request->apply_tick = 0;
     if (!schedules_ && request->apply_tick > 0) {
       reply(*request, request->header, false,
             "in real time a request acts at once: apply_tick must be 0 (lockstep permits a later tick)");
       continue;
     }
     const bool full = waiting_.size() >= kMostWaiting;
-    const bool stops_now = stops(*request) && request->apply_tick == 0;  // accepted also during a flood
+    const bool stops_now =
+        stops_crane(request->kind) && request->apply_tick == 0;  // accepted also during a flood
     if (full && !(stops_now && waiting_.size() < kMostWaiting + kMostStops)) {
       reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
       continue;
@@ -40,18 +41,12 @@ bool RequestInbox::receive() {
   return any;
 }
 
-bool RequestInbox::stops(const msg::Request& request) {
-  return request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||
-         request.kind == crane_REQUEST_DISARM;
-}
-
 /// A lost connection delays a request until the middleware can send it again, at most for the lease. Another
 /// program on the network can record a request, encrypted or not, and send it again in a later run.
 std::string_view RequestInbox::obsolete_because(const msg::Request& request, std::int64_t now_ns) const {
-  constexpr auto kLongestAge_ns = static_cast<std::int64_t>(kLongestAge_s * 1e9);
-  if (schedules_ || stops(request)) return "";
+  if (schedules_ || stops_crane(request.kind)) return "";
   const auto seen_ns = ticks_.time_of(request.header);
-  if (!seen_ns || now_ns - *seen_ns > kLongestAge_ns)
+  if (!seen_ns || now_ns - *seen_ns > kRequestLife_ns)
     return "the request names no tick of the last 2 s (header.tick, header.sample_time_ns): repeat the "
            "request";
   if (*seen_ns < stopped_ns_)

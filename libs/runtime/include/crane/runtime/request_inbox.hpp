@@ -10,6 +10,7 @@
 
 #include "crane/runtime/component.hpp"
 #include "crane/runtime/recent_ticks.hpp"
+#include "crane/runtime/request_kinds.hpp"
 
 namespace crane::runtime {
 
@@ -22,9 +23,6 @@ class RequestInbox {
   static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
-  /// In real time, a request that names an older tick is refused. The operator tools wait for an answer for
-  /// the same time; afterwards, the operator expects no motion.
-  static constexpr double kLongestAge_s = 2;
 
   /// @param kinds  kinds of request that this process executes; it ignores all others
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
@@ -41,13 +39,11 @@ class RequestInbox {
   /// Call when the crane stops. In real time, requests that name an earlier tick are then refused, except
   /// requests that stop the crane.
   void stopped(std::int64_t now_ns) { stopped_ns_ = now_ns; }
-  /// True if the request stops the crane.
-  [[nodiscard]] static bool stops(const msg::Request& request);
   /// @param sender  participant that sent the request
   /// @return the next request that is due at `tick`, in the order of arrival; nothing when there is none.
   ///   Refuses requests that are due later than kFarthest_ticks after `tick`. In real time, refuses a request
   ///   that does not stop the crane unless its header has the tick and the sample time of a tick of this run
-  ///   (stepped()) that is not older than kLongestAge_s and not before the last stop.
+  ///   (stepped()) that is not older than kRequestLife_s and not before the last stop.
   [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick, std::int64_t now_ns,
                                                      bus::ParticipantId* sender = nullptr);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);
