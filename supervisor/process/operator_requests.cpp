@@ -108,13 +108,12 @@ void OperatorRequests::reply(const msg::Header& header) {
   answers_.clear();
 }
 
-bool OperatorRequests::is_moving(const msg::Reference* reference) {
+void OperatorRequests::note_reference(const msg::Reference* reference) {
   if (reference != nullptr) {
     reference_moving_ = reference->moving;
     if (reference->move_number == move_.number) ticks_to_take_up_ = 0;
   }
   if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
-  return reference_moving_ || ticks_to_take_up_ > 0;
 }
 
 }  // namespace crane::supervisor

@@ -42,11 +42,11 @@ class OperatorRequests {
   [[nodiscard]] Mode mode() const { return mode_; }
   /// Last accepted move; number 0: none.
   [[nodiscard]] const msg::AcceptedMove& move() const { return move_; }
-  /// True from the acceptance of a move until its reference has ended. If the planner does not begin the move
-  /// within 0.2 s (kToTakeUp_s), it becomes false. After the beginning, a missing reference does not end RUN.
-  /// Call once per step.
-  /// @param reference  null: none arrived
-  [[nodiscard]] bool is_moving(const msg::Reference* reference);
+  /// Call once per step. @param reference  null: none arrived; the last one then remains valid
+  void note_reference(const msg::Reference* reference);
+  /// True from the acceptance of a move until its reference has ended, and at most 0.2 s (kToTakeUp_s) if the
+  /// planner does not begin the move.
+  [[nodiscard]] bool is_moving() const { return reference_moving_ || ticks_to_take_up_ > 0; }
 
  private:
   struct DueRequest {

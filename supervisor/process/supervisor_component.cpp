@@ -80,7 +80,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_v = runtime::values(demand->total_v);
     }
     jogs_.take(last_header_, input.now_s);
-    input.reference_moving = requests_.is_moving(reference) || jogs_.session().active(input.now_s);
+    requests_.note_reference(reference);
+    input.reference_moving = requests_.is_moving() || jogs_.session().active(input.now_s);
     input.second_writer =
         (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
     if (input.bridge_restarted) {
@@ -106,7 +107,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     TickInput input;
     input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
-    input.reference_moving = requests_.is_moving(nullptr) || jogs_.session().active(input.now_s);
+    requests_.note_reference(nullptr);
+    input.reference_moving = requests_.is_moving() || jogs_.session().active(input.now_s);
     input.self_test = self_test_.step(nullptr);
     step(input);
     return true;
