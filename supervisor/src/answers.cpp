@@ -76,7 +76,7 @@ Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
   }
   if (in.gate_cause == Cause::demand_invalid) return refuse(remedy_for(Cause::demand_invalid));
   if (in.demand_stale) return refuse(remedy_for(Cause::demand_stale));
-  if (in.now_s - m.fresh_since_s < limits.clear_time_s && enabled(arm_fresh_time)) {
+  if (in.now_s - m.fresh_since_s < limits.fresh_time_s && enabled(arm_fresh_time)) {
     return refuse("state and demand have been complete for less than a second: wait, then arm again");
   }
   return kAccepted;

@@ -68,6 +68,8 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.at_least("demand_invalid_in_row", limits.demand_invalid_in_row, 1);
   problems.at_least("overruns_in_row", limits.overruns_in_row, 0);
   problems.at_least("clear_time_s", limits.clear_time_s, 0);
+  problems.at_least("fresh_time_s", limits.fresh_time_s, 0);
+  problems.at_least("take_up_time_s", limits.take_up_time_s, 0);
   problems.positive("load_still_rad", limits.load_still_rad);
   problems.at_least("load_watch_s", limits.load_watch_s, limits.clear_time_s);
   problems.positive("standstill_time_s", limits.standstill_time_s);

@@ -112,8 +112,8 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
   if (m.state != State::run) return;
   m.move_began = m.move_began || in.reference_moving;
-  // A move that the planner does not begin ends after clear_time_s.
-  const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.clear_time_s;
+  // In the process, OperatorRequests::is_moving() ends a move that the planner does not begin earlier.
+  const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.take_up_time_s;
   if ((m.move_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
     m.idle_since_s = in.now_s;
