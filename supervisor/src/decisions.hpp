@@ -8,8 +8,8 @@ namespace crane::supervisor {
   return in.requests[static_cast<std::size_t>(request)];
 }
 
-/// True when the brakes are open or will open: all causes apply.
-[[nodiscard]] inline bool armed(const Memory& m) noexcept {
+/// True in ARMING, HOLD, RUN and STOP_C1: the rules with Scope::armed apply.
+[[nodiscard]] inline bool in_armed_scope(const Memory& m) noexcept {
   return m.state == State::arming || m.state == State::hold || m.state == State::run ||
          m.state == State::stop_c1;
 }

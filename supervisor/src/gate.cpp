@@ -90,11 +90,11 @@ GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory
   PerAxis volts_v = usable ? input.demand_v : memory.last_v;
   if (usable && enabled(gate_range)) limit_range(limits, volts_v, output);
   output.near_zero = usable && is_near_zero(limits, volts_v);
-  if (usable && input.armed) limit_rate(limits, memory, volts_v, output);
-  if (!input.armed) memory.rate_pressure = 0;
+  if (usable && input.drives_active) limit_rate(limits, memory, volts_v, output);
+  if (!input.drives_active) memory.rate_pressure = 0;
   judge_freshness(limits, memory, output);
   if (output.clamped) ++memory.clamped_count;
-  if (!input.armed) return output;
+  if (!input.drives_active) return output;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (input.block_positive[i] && enabled(gate_block_outwards)) volts_v[i] = std::min(volts_v[i], 0.0);
     if (input.block_negative[i] && enabled(gate_block_outwards)) volts_v[i] = std::max(volts_v[i], 0.0);

@@ -218,7 +218,7 @@ bool in_scope(Scope scope, M m) noexcept {
     case Scope::selftest:
       return m.state == State::selftest;
     case Scope::armed:
-      return armed(m);
+      return in_armed_scope(m);
     case Scope::arming:
       return m.state == State::arming;
   }

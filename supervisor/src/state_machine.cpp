@@ -186,9 +186,9 @@ Outputs outputs_of(const Limits& limits, const Memory& m, const Answers& answers
     out.volts = Volts::ramp;
     out.ramp_factor = 1 - static_cast<double>(m.ramp_tick) / ramp_ticks(limits);
   }
-  out.brake_release = m.releasing && armed(m);
+  out.brake_release = m.releasing && in_armed_scope(m);
   out.homing = m.homing;
-  out.watchdog_permission = m.state == State::ready || armed(m);
+  out.watchdog_permission = m.state == State::ready || in_armed_scope(m);
   out.stop_motion = m.state != State::hold && m.state != State::run;
   return out;
 }
@@ -208,7 +208,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);
   transition(limits, in, answers, m);
-  m.homing = m.homing && armed(m);
+  m.homing = m.homing && in_armed_scope(m);
   m.reset_was_up = requested(in, Request::reset);
   return outputs_of(limits, m, answers);
 }

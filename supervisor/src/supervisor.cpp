@@ -58,7 +58,7 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
                     TickMemory& memory) {
   const GateInput in{.arrived = input.demand_arrived,
                      .demand_v = demand_of(limits, input, memory),
-                     .armed = drives_active(memory.machine),
+                     .drives_active = drives_active(memory.machine),
                      .block_positive = envelope.block_positive,
                      .block_negative = envelope.block_negative};
   return gate(limits, in, memory.gate);

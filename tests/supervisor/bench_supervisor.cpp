@@ -62,7 +62,7 @@ void gate_envelope_following_error(benchmark::State& run) {
     benchmark::DoNotOptimize(gate(limits,
                                   {.arrived = true,
                                    .demand_v = sample.applied_v,
-                                   .armed = true,
+                                   .drives_active = true,
                                    .block_positive = envelope.block_positive,
                                    .block_negative = envelope.block_negative},
                                   gate_memory));

@@ -16,9 +16,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Steps the gate and stores its output as the voltage that reached the drives.
 GateOutput pass(const Limits& limits, GateMemory& memory, double trolley_v, bool arrived = true,
-                bool armed = true) {
-  const GateOutput out =
-      gate(limits, {.arrived = arrived, .demand_v = {trolley_v, 0, 0}, .armed = armed}, memory);
+                bool drives_active = true) {
+  const GateOutput out = gate(
+      limits, {.arrived = arrived, .demand_v = {trolley_v, 0, 0}, .drives_active = drives_active}, memory);
   memory.last_v = out.drive_v;
   return out;
 }
@@ -63,7 +63,7 @@ TEST(Gate, RejectsAWholeDemandWithOneValueThatIsNotFinite) {
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
       GateMemory memory{.last_v = {1, 2, 0}};
-      GateInput input{.arrived = true, .demand_v = {5, 5, 5}, .armed = true};
+      GateInput input{.arrived = true, .demand_v = {5, 5, 5}, .drives_active = true};
       input.demand_v[axis] = bad;
       const GateOutput out = gate(test_limits(), input, memory);
       EXPECT_TRUE(out.invalid);
@@ -115,16 +115,17 @@ TEST(Gate, ASlowRateLimitLetsAFullReversalThrough) {
 TEST(Gate, GivesNoVoltageWhileNotArmedOrOnAbsentAxes) {
   GateMemory memory;
   EXPECT_EQ(pass(test_limits(), memory, 5, true, false).drive_v, PerAxis{});
-  EXPECT_EQ(gate(test_limits(), {.arrived = true, .demand_v = {5, 5, 5}, .armed = true}, memory).drive_v[2],
-            0);
+  EXPECT_EQ(
+      gate(test_limits(), {.arrived = true, .demand_v = {5, 5, 5}, .drives_active = true}, memory).drive_v[2],
+      0);
 }
 
 TEST(Gate, BlocksTheDirectionOfALimitOnly) {
   GateMemory memory{.last_v = {4, 0, 0}};
   const GateInput outward{
-      .arrived = true, .demand_v = {5, -5, 0}, .armed = true, .block_positive = {true, true}};
+      .arrived = true, .demand_v = {5, -5, 0}, .drives_active = true, .block_positive = {true, true}};
   EXPECT_EQ(gate(test_limits(), outward, memory).drive_v, (PerAxis{0, -5, 0}));
-  const GateInput held{.arrived = false, .armed = true, .block_positive = {true}};
+  const GateInput held{.arrived = false, .drives_active = true, .block_positive = {true}};
   EXPECT_EQ(gate(test_limits(), held, memory).drive_v[0], 0);
 }
 

@@ -12,9 +12,9 @@ namespace crane::supervisor {
 inline constexpr double kRejectionRatio = 20;
 
 struct GateInput {
-  bool arrived = false;                          ///< true: the demand of this tick has arrived
-  PerAxis demand_v{};                            ///< V, any value including NaN; valid when arrived
-  bool armed = false;                            ///< drives_active(); false: the output is 0 V
+  bool arrived = false;        ///< true: the demand of this tick has arrived
+  PerAxis demand_v{};          ///< V, any value including NaN; valid when arrived
+  bool drives_active = false;  ///< drives_active() of the state machine; false: the output is 0 V
   AxisFlags block_positive{}, block_negative{};  ///< from Envelope
 };
 
