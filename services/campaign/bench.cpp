@@ -107,7 +107,7 @@ bool Bench::run_until(const std::function<bool()>& holds, double longest_s) {
 }
 
 void Bench::request(stack::OperatorRequest wanted) {
-  wanted.seen = row_.status.header;
+  wanted.newest_status = row_.status.header;
   last_request_ = operator_->send(wanted);
   note(wanted.kind);
   tick();
@@ -118,13 +118,13 @@ void Bench::request_without_id() {
   stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE,
                                 .selected = setting_.selected,
                                 .target = setting_.target,
-                                .seen = row_.status.header};
+                                .newest_status = row_.status.header};
   last_request_ = without_id_->send(wanted);
   tick();
 }
 
 void Bench::send(crane_RequestKind kind) {
-  last_request_ = operator_->send({.kind = kind, .seen = row_.status.header});
+  last_request_ = operator_->send({.kind = kind, .newest_status = row_.status.header});
   note(kind);
 }
 

@@ -125,7 +125,7 @@ void Fleet::take_statuses(std::int64_t now_ns) {
 /// reset: its later moves are refused.
 void Fleet::operate(Operator& by, FleetCrane& crane, std::int64_t now_ns) const {
   constexpr std::array kInTurn{crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_MOVE};
-  while (const auto status = by.supervisor.take()) by.next.seen = status->header;
+  while (const auto status = by.supervisor.take()) by.next.newest_status = status->header;
   by.client.receive();
   for (const auto id : by.moves_sent)
     if (const auto reply = by.client.take_reply(id, crane_SOURCE_SUPERVISOR); reply && reply->accepted)

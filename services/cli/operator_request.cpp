@@ -32,7 +32,7 @@ class Conversation {
   Conversation(bus::Bus& bus, const stack::OperatorRequest& wanted)
       : bus_{bus},
         wanted_{wanted},
-        names_status_{wanted.seen.sample_time_ns != 0},
+        names_status_{wanted.newest_status.sample_time_ns != 0},
         client_{bus, client_name(), first_id()},
         supervisor_{bus.subscriber(topics::supervisor)} {
     if (wanted.kind == crane_REQUEST_MOVE || wanted.kind == crane_REQUEST_JOG)
@@ -72,7 +72,7 @@ class Conversation {
   void hear_supervisor() {
     while (const auto status = supervisor_.take()) {
       heard_supervisor_ = true;
-      if (!names_status_) wanted_.seen = status->header;
+      if (!names_status_) wanted_.newest_status = status->header;
     }
   }
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }

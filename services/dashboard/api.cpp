@@ -111,7 +111,7 @@ ApiAnswer Api::get(const ApiRequest& request) {
             .body = metrics(model_, counts_(), runtime::monotonic_ns())};
   if (path == "/api/about") return about(request.visitor);
   if (path == "/api/situation") return {.body = model_.text(Document::situation)};
-  if (path == "/api/seen") return seen();
+  if (path == "/api/seen") return newest_status();
   if (path == "/api/traffic") return {.body = model_.text(Document::traffic)};
   if (path == "/api/faults") return {.body = model_.text(Document::faults)};
   if (path == "/api/operator") return {.body = model_.text(Document::seat)};
@@ -124,9 +124,9 @@ ApiAnswer Api::get(const ApiRequest& request) {
   return problem_answer(404, "this path does not exist; docs/dashboard.md lists the paths");
 }
 
-ApiAnswer Api::seen() const {
+ApiAnswer Api::newest_status() const {
   const auto& status = model_.situation().supervisor();
-  return json_answer({{"seen", status ? ordered_json(mark_of(status->header)) : ordered_json(nullptr)}});
+  return json_answer({{"seen", status ? ordered_json(status_id(status->header)) : ordered_json(nullptr)}});
 }
 
 ApiAnswer Api::about(const Visitor& visitor) const {
@@ -206,14 +206,14 @@ void Api::request(const ApiRequest& request, AnswerHandler answer) {
       return answer(problem_answer(409, "take the controls first: one operator at a time"));
     // An interrupted connection can deliver a request late. The supervisor compares this tick with the last
     // stop. Without a supervisor, the answer of RequestSender names the remedy.
-    const auto seen = model_.situation().status_of(request.seen, now_ns);
-    if (!seen && !runtime::stops_crane(wanted.kind) && model_.situation().hears_supervisor(now_ns))
+    const auto named = model_.situation().status_of(request.status_id, now_ns);
+    if (!named && !runtime::stops_crane(wanted.kind) && model_.situation().hears_supervisor(now_ns))
       return reply_with(
-          {false, request.seen.empty()
+          {false, request.status_id.empty()
                       ? "the header X-Crane-Seen is missing: state the newest status that has arrived (GET "
                         "/api/seen)"
                       : "the request names no status of the last 2 s (X-Crane-Seen): repeat the request"});
-    wanted.seen = seen.value_or(msg::Header{});
+    wanted.newest_status = named.value_or(msg::Header{});
   }
   send_(wanted, reply_with);
 }

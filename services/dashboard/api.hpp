@@ -31,7 +31,7 @@ class Api {
  private:
   [[nodiscard]] ApiAnswer get(const ApiRequest& request);
   void post(const ApiRequest& request, AnswerHandler answer);
-  [[nodiscard]] ApiAnswer seen() const;
+  [[nodiscard]] ApiAnswer newest_status() const;
   [[nodiscard]] ApiAnswer about(const Visitor& visitor) const;
   [[nodiscard]] ApiAnswer history(std::string_view query) const;
   [[nodiscard]] ApiAnswer take_seat(const ApiRequest& request);

@@ -11,9 +11,9 @@ namespace crane::dashboard {
 struct ApiRequest {
   std::string method, target;  ///< "GET", "/api/history?topic=crane/state"
   std::string content_type, body;
-  std::string seat_key;  ///< header X-Crane-Seat
-  std::string seen;      ///< header X-Crane-Seen: the newest crane/supervisor that the client has received
-  Visitor visitor;       ///< its views must outlive the call
+  std::string seat_key;   ///< header X-Crane-Seat
+  std::string status_id;  ///< header X-Crane-Seen: the newest crane/supervisor that the client has received
+  Visitor visitor;        ///< its views must outlive the call
 };
 
 struct ApiAnswer {

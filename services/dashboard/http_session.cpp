@@ -145,7 +145,7 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
             .content_type = text_of(request[http::field::content_type]),
             .body = request.body(),
             .seat_key = text_of(request["X-Crane-Seat"]),
-            .seen = text_of(request["X-Crane-Seen"]),
+            .status_id = text_of(request["X-Crane-Seen"]),
             .visitor = visitor()};
   }
 

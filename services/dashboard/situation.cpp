@@ -74,9 +74,9 @@ void Situation::add(const observation::Sample& sample) {
   }
 }
 
-std::optional<msg::Header> Situation::status_of(std::string_view seen, std::int64_t now_ns) const {
+std::optional<msg::Header> Situation::status_of(std::string_view id, std::int64_t now_ns) const {
   const auto found = std::find_if(statuses_.rbegin(), statuses_.rend(),
-                                  [seen](const Arrived& arrived) { return mark_of(arrived.header) == seen; });
+                                  [id](const Arrived& arrived) { return status_id(arrived.header) == id; });
   if (found == statuses_.rend() || now_ns - found->arrival_ns > runtime::kRequestLife_ns) return std::nullopt;
   return found->header;
 }
@@ -106,7 +106,7 @@ ordered_json Situation::json(std::int64_t now_ns) const {
   return result;
 }
 
-std::string mark_of(const msg::Header& header) {
+std::string status_id(const msg::Header& header) {
   return std::to_string(header.epoch) + "-" + std::to_string(header.tick);
 }
 

@@ -19,9 +19,9 @@ class Situation {
   /// JSON of the situation. Two texts differ only when information for the operator differs.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
-  /// @param seen  "EPOCH-TICK" of a crane/supervisor: a tick alone would also name a tick of another run
+  /// @param id  "EPOCH-TICK" of a crane/supervisor: a tick alone would also name a tick of another run
   /// @return its header; nothing when it has not arrived within runtime::kRequestLife_ns
-  [[nodiscard]] std::optional<msg::Header> status_of(std::string_view seen, std::int64_t now_ns) const;
+  [[nodiscard]] std::optional<msg::Header> status_of(std::string_view id, std::int64_t now_ns) const;
   /// @return true when a crane/supervisor has arrived within kSilent_ns
   [[nodiscard]] bool hears_supervisor(std::int64_t now_ns) const {
     return supervisor_ && now_ns - supervisor_ns_ <= kSilent_ns;
@@ -42,7 +42,7 @@ class Situation {
 };
 
 /// "EPOCH-TICK" of a sample.
-[[nodiscard]] std::string mark_of(const msg::Header& header);
+[[nodiscard]] std::string status_id(const msg::Header& header);
 
 /// JSON text; bytes from the bus that are not valid UTF-8 are replaced.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);

@@ -130,9 +130,9 @@ void RealtimeSession::wait(std::chrono::nanoseconds duration) {
 
 std::string RealtimeSession::refusal_of(const stack::OperatorRequest& wanted, const std::string& what) {
   take(std::chrono::nanoseconds{0});
-  auto seen = wanted;
-  if (status_) seen.seen = status_->header;
-  const auto id = operator_.send(seen);
+  auto dated = wanted;
+  if (status_) dated.newest_status = status_->header;
+  const auto id = operator_.send(dated);
   if (first_id_ == 0) first_id_ = id;
   last_id_ = id;
   std::optional<msg::Reply> reply;

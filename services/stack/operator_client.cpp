@@ -29,7 +29,7 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted) { return send(
 
 std::uint64_t OperatorClient::send(const OperatorRequest& wanted, bus::Publisher<msg::Request>& writer) {
   msg::Request request{};
-  request.header = runtime::answer_to(wanted.seen);
+  request.header = runtime::answer_to(wanted.newest_status);
   request.id = next_id_++;
   runtime::assign(request.client, client_);
   request.kind = wanted.kind;

@@ -26,7 +26,7 @@ struct OperatorRequest {
   /// Header of the newest crane/supervisor that this client has received. In real time, the supervisor
   /// refuses a request that names a tick older than 2 s or older than the last stop, unless the request stops
   /// the crane.
-  msg::Header seen{};
+  msg::Header newest_status{};
 };
 
 /// Request to follow an excitation.

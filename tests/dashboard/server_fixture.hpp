@@ -33,7 +33,7 @@ class ServerTest : public testing::Test {
                 std::move(rules),
                 [this](const stack::OperatorRequest& wanted, const Answered& answered) {
                   ++requests_;
-                  seen_ = wanted.seen;
+                  newest_status_ = wanted.newest_status;
                   answered({wanted.kind != crane_REQUEST_ARM,
                             wanted.kind == crane_REQUEST_ARM ? "not READY" : ""});
                 },
@@ -67,7 +67,7 @@ class ServerTest : public testing::Test {
     http::request<http::string_body> request{http::verb::post, target, 11, body.dump()};
     request.set(http::field::content_type, "application/json");
     request.set("X-Crane-Seat", seat);
-    if (!seen_by_client_.empty()) request.set("X-Crane-Seen", seen_by_client_);
+    if (!status_id_.empty()) request.set("X-Crane-Seen", status_id_);
     return exchange(request);
   }
   std::string metric(const std::string& name) {
@@ -110,20 +110,20 @@ class ServerTest : public testing::Test {
         json{{"op", "subscribe"}, {"subscriptions", {{{"id", channel}, {"channelId", channel}}}}}.dump()));
   }
 
-  /// The server receives the status of this tick; the clients state that they have seen it.
+  /// The server receives the status of this tick; the clients name it.
   void hear_tick(std::uint64_t tick, std::int64_t age_ns = 0) {
     server_.put({observation::status_at(runtime::monotonic_ns() - age_ns, crane_STATE_LOCKED,
                                         crane_CAUSE_START, tick)});
     const auto seen = [&] { return json::parse(get("/api/seen").body())["seen"]; };
     const auto end = "-" + std::to_string(tick);
     while (!seen().is_string() || !seen().get<std::string>().ends_with(end)) std::this_thread::yield();
-    seen_by_client_ = seen().get<std::string>();
+    status_id_ = seen().get<std::string>();
   }
 
-  std::string seen_by_client_;
+  std::string status_id_;
   asio::io_context context_;
   std::atomic<int> requests_{0};
-  msg::Header seen_{};  ///< of the last request
+  msg::Header newest_status_{};  ///< of the last request
   Server server_;
   std::jthread thread_{[this] { server_.run(); }};
 };

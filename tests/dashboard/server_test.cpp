@@ -57,23 +57,22 @@ TEST_F(ServerTest, ARequestThatNamesNoTickOfTheLast2sIsRefused) {
     return json::parse(post("/api/request", {{"kind", "move"}, {"trolley_m", 1}}, seat).body());
   };
   hear_tick(7, 3 * kSecond_ns);
-  const auto too_old = seen_by_client_;
+  const auto too_old = status_id_;
   hear_tick(500, kSecond_ns);
-  const auto in_time = seen_by_client_;
+  const auto in_time = status_id_;
   hear_tick(600);
-  seen_by_client_ = "";
+  status_id_ = "";
   EXPECT_NE(move()["reason"].get<std::string>().find("X-Crane-Seen"), std::string::npos);
-  for (const auto& seen :
+  for (const auto& id :
        {too_old, std::string{"12345-600"}, in_time + "0", std::string{"-600"}, std::string{"tick"}}) {
-    seen_by_client_ = seen;
-    EXPECT_NE(move()["reason"].get<std::string>().find("no status of the last 2 s"), std::string::npos)
-        << seen;
+    status_id_ = id;
+    EXPECT_NE(move()["reason"].get<std::string>().find("no status of the last 2 s"), std::string::npos) << id;
     EXPECT_TRUE(json::parse(post("/api/request", {{"kind", "disarm"}}, seat).body())["accepted"].get<bool>());
   }
   requests_ = 0;
-  seen_by_client_ = in_time;
+  status_id_ = in_time;
   EXPECT_TRUE(move()["accepted"].get<bool>());
-  EXPECT_EQ(seen_.tick, 500U) << "the supervisor compares this tick with the last stop";
+  EXPECT_EQ(newest_status_.tick, 500U) << "the supervisor compares this tick with the last stop";
   EXPECT_EQ(requests_, 1);
 }
 

@@ -47,7 +47,7 @@ class LateStack {
     stack_.suspend(source, stack_.now_ns() + std::llround(seconds * 1e9));
   }
   void ask(stack::OperatorRequest wanted) {
-    wanted.seen = newest_;
+    wanted.newest_status = newest_;
     last_id_ = operator_.send(wanted);
   }
   /// Deflects the stick of the session that was requested last, for one tick.

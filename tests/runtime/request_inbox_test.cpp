@@ -18,7 +18,7 @@ class Inbox : public testing::Test {
     msg::Request request{};
     request.id = id;
     request.kind = kind;
-    request.header = seen_;
+    request.header = named_;
     request.apply_tick = apply_tick;
     ASSERT_TRUE(requests_.publish(request));
   }
@@ -29,7 +29,7 @@ class Inbox : public testing::Test {
     return count;
   }
 
-  msg::Header seen_{};
+  msg::Header named_{};
   std::int64_t now_ns_ = 0;
   Clock clock_;
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
@@ -131,9 +131,9 @@ class InboxInRealTime : public Inbox {
     now_ns_ = header_of(tick_).sample_time_ns;
     inbox_.stepped(header_of(tick_), now_ns_);
   }
-  /// @return true when the inbox returns a request whose operator saw tick `seen`
-  bool executes(const msg::Header& seen, crane_RequestKind kind = crane_REQUEST_ARM) {
-    seen_ = seen;
+  /// @return true when the inbox returns a request that names the tick of `named`
+  bool executes(const msg::Header& named, crane_RequestKind kind = crane_REQUEST_ARM) {
+    named_ = named;
     send(++id_, 0, kind);
     inbox_.receive();
     const bool executed = due(tick_).has_value();
@@ -146,7 +146,7 @@ class InboxInRealTime : public Inbox {
 
 TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOperatorHasLeft) {
   run_until(1);
-  seen_ = header_of(1);
+  named_ = header_of(1);
   send(1, 20, crane_REQUEST_ARM);
   inbox_.receive();
   EXPECT_EQ(refusals(), 1U);
@@ -154,7 +154,7 @@ TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOp
 }
 
 /// A connection that was lost for seconds may deliver a request after its operator has given up.
-TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterItsOperatorSawTheCrane) {
+TEST_F(InboxInRealTime, RefusesARequestThatArrivesMoreThanTwoSecondsAfterTheTickThatItNames) {
   run_until(1000);
   EXPECT_TRUE(executes(header_of(1000)));
   EXPECT_TRUE(executes(header_of(800)));
@@ -179,7 +179,7 @@ TEST_F(InboxInRealTime, RefusesARequestOfAnEarlierRunWithTheNumberOfAPresentTick
   EXPECT_TRUE(executes(header_of(450)));
 }
 
-TEST_F(InboxInRealTime, RefusesARequestWhoseOperatorSawTheCraneBeforeItsLastStop) {
+TEST_F(InboxInRealTime, RefusesARequestThatNamesATickBeforeTheLastStop) {
   run_until(100);
   inbox_.stopped(now_ns_);
   run_until(150);
@@ -220,7 +220,7 @@ TEST_F(InboxInRealTime, AStopOfAnyAgeActs) {
 }
 
 TEST_F(Inbox, InLockstepHasNoAgeLimitBecauseTimePassesOnlyWithTheTicks) {
-  seen_.tick = 1;
+  named_.tick = 1;
   send(1, 0, crane_REQUEST_ARM);
   inbox_.receive();
   EXPECT_TRUE(due(10'000));

@@ -31,10 +31,10 @@ class RunInRealTime : public SupervisorInRealTime {
     EXPECT_EQ(supervisor_state(), crane_STATE_RUN);
   }
   void ask(crane_RequestKind kind) { ask(kind, state_.header); }
-  /// @param seen  header of the sample that the operator has seen
-  void ask(crane_RequestKind kind, const msg::Header& seen) {
+  /// @param named  header of the sample that the request names
+  void ask(crane_RequestKind kind, const msg::Header& named) {
     msg::Request request{};
-    request.header = runtime::answer_to(seen);
+    request.header = runtime::answer_to(named);
     request.id = ++last_id_;
     request.kind = kind;
     request.selected[0] = true;
@@ -90,7 +90,7 @@ TEST_F(RunInRealTime, ALateStateDoesNotEndTheMove) {
 }
 
 /// The network delays the requests of one host by more than a second. Another host stops the crane meanwhile.
-TEST_F(RunInRealTime, ARequestOfAnOperatorWhoSawTheCraneBeforeItsStopIsRefused) {
+TEST_F(RunInRealTime, ARequestThatNamesATickBeforeTheStopIsRefused) {
   const auto before = state_.header;
   ask(crane_REQUEST_ESTOP);
   reference_.moving = false;

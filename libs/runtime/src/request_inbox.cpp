@@ -45,11 +45,11 @@ bool RequestInbox::receive() {
 /// program on the network can record a request, encrypted or not, and send it again in a later run.
 std::string_view RequestInbox::obsolete_because(const msg::Request& request, std::int64_t now_ns) const {
   if (schedules_ || stops_crane(request.kind)) return "";
-  const auto seen_ns = ticks_.time_of(request.header);
-  if (!seen_ns || now_ns - *seen_ns > kRequestLife_ns)
+  const auto named_ns = ticks_.time_of(request.header);
+  if (!named_ns || now_ns - *named_ns > kRequestLife_ns)
     return "the request names no tick of the last 2 s (header.tick, header.sample_time_ns): repeat the "
            "request";
-  if (*seen_ns < stopped_ns_)
+  if (*named_ns < stopped_ns_)
     return "the crane has stopped after the tick that the request names: look at the crane and repeat the "
            "request";
   return "";

@@ -112,7 +112,7 @@ void acknowledge(bus::Bus& bus, Watch& watch) {
       return status.state == crane_STATE_LOCKED || !stops_by_homing(status);
     });
     if (!stops_by_homing(watch.status())) throw_stopped(watch.status());
-    answer = ask(bus, {.kind = crane_REQUEST_RESET, .seen = watch.status().header});
+    answer = ask(bus, {.kind = crane_REQUEST_RESET, .newest_status = watch.status().header});
   }
   if (!answer.accepted) throw std::runtime_error("home: reset refused: " + answer.reason);
 }
