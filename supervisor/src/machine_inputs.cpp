@@ -94,11 +94,11 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks
       .doubtful_axis = unclear % kAxes,
       .swing_zero_doubtful = memory.restart.swing_zero_doubtful,
       .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
-      .brake_failed = checks.brakes_failed || input.brake_open_without_command,
-      .relay_failed = checks.relay_stuck,
+      .brake_did_not_close = checks.brake_did_not_close || input.brake_open_without_command,
+      .relay_did_not_open = checks.relay_did_not_open,
       .relay_closed = !memory.relay_permitted && !sample.watchdog_dropped,
-      .moved_while_arming =
-          memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
+      .moved_while_arming = memory.machine.state == State::arming && memory.machine.releasing &&
+                            moved(limits, memory.release_position, memory.motion.position),
       .demand_near_zero = checks.gated.near_zero,
       .brakes_open = every_brake_open(limits, memory),
       .brakes_closed = every_brake_closed(limits, memory),

@@ -20,8 +20,8 @@ struct Checks {
   const Envelope& envelope;
   const GateOutput& gated;
   const ZoneVerdict& zone;
-  bool brakes_failed;        ///< a closed brake does not hold its axis, or does not report closed
-  bool relay_stuck;          ///< the watchdog relay stays closed without permission
+  bool brake_did_not_close;  ///< a closed brake does not hold its axis, or does not report closed
+  bool relay_did_not_open;   ///< the watchdog relay stays closed without permission
   bool following_error;      ///< see following.hpp
   bool swing_sensor_failed;  ///< see pendulum.hpp
 };

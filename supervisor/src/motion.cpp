@@ -39,8 +39,8 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
     *place += change;
 }
 
-bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
-                  const AxisFlags& brake_closed, BrakeMemory& memory) noexcept {
+bool brake_did_not_close(const Limits& limits, double now_s, const MotionMemory& motion,
+                         const AxisFlags& brake_closed, BrakeMemory& memory) noexcept {
   if (!memory.valid) {
     memory = {.valid = true, .since_s = now_s, .position = motion.position, .speed = motion.speed};
     return false;
@@ -61,7 +61,7 @@ bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion
   return failed;
 }
 
-bool relay_failed(const Limits& limits, double now_s, bool relay_closed, RelayMemory& memory) noexcept {
+bool relay_did_not_open(const Limits& limits, double now_s, bool relay_closed, RelayMemory& memory) noexcept {
   if (!memory.withheld) {
     memory = {.withheld = true, .since_s = now_s};
     return false;

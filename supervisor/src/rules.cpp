@@ -54,11 +54,11 @@ constexpr const char* kResetArm = "reset, then arm";
 // clang-format off
 constexpr std::array kRules{
     Rule{"supervisor_brake_did_not_close", Cause::brake_did_not_close, Reaction::fault, Scope::past_self_test, false,
-         [](L, I in, M) noexcept { return in.brake_failed; },
+         [](L, I in, M) noexcept { return in.brake_did_not_close; },
          "an axis moves by more than twice its stopping distance plus `brake_slip` after the command to close its brake, or the "
          "brake does not report closed within its closing time plus 110 ms", "same tick", kCheckBrakes},
     Rule{"supervisor_relay_did_not_open", Cause::relay_did_not_open, Reaction::fault, Scope::past_self_test, false,
-         [](L, I in, M) noexcept { return in.relay_failed; },
+         [](L, I in, M) noexcept { return in.relay_did_not_open; },
          "without permission, the watchdog relay reports closed for `relay_timeout_s` plus 110 ms", "same tick", kWeldedRelay},
     Rule{"supervisor_selftest_failed", Cause::selftest_failed, Reaction::fault, Scope::selftest, false,
          [](L, I in, M) noexcept { return in.self_test == SelfTest::failed; },

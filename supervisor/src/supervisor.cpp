@@ -31,14 +31,14 @@ bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, Ti
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
     memory.brakes.valid = false;
   if (memory.machine.releasing || !sampled) return false;
-  return brake_failed(limits, input.now_s, memory.motion, memory.sample.brake_closed, memory.brakes);
+  return brake_did_not_close(limits, input.now_s, memory.motion, memory.sample.brake_closed, memory.brakes);
 }
 
 bool watch_relay(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.relay_permitted || state == State::boot || state == State::selftest) memory.relay = {};
   if (memory.relay_permitted || !sampled) return false;
-  return relay_failed(limits, input.now_s, !memory.sample.watchdog_dropped, memory.relay);
+  return relay_did_not_open(limits, input.now_s, !memory.sample.watchdog_dropped, memory.relay);
 }
 
 /// During homing, the other axes get 0 V, and the voltage of the homed axis is limited to volt_limit_v of its
@@ -131,8 +131,8 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   take_over_bridge(limits, input, memory);
   const bool sampled = take_sample(limits, input, memory);
   const Envelope envelope = check_envelope(limits, measured_now(limits, input, memory));
-  const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
-  const bool relay_stuck = watch_relay(limits, input, sampled, memory);
+  const bool brake_did_not_close = watch_brakes(limits, input, sampled, memory);
+  const bool relay_did_not_open = watch_relay(limits, input, sampled, memory);
   GateOutput gated = run_gate(limits, input, envelope, memory);
   const ZoneVerdict zone = guard_zones(limits, sampled, gated, memory);
   const double creeping_speed = creep(limits, memory);
@@ -142,8 +142,8 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
                                        {.envelope = envelope,
                                         .gated = gated,
                                         .zone = zone,
-                                        .brakes_failed = brakes_failed,
-                                        .relay_stuck = relay_stuck,
+                                        .brake_did_not_close = brake_did_not_close,
+                                        .relay_did_not_open = relay_did_not_open,
                                         .following_error = following_error,
                                         .swing_sensor_failed = swing_sensor_failed},
                                        memory);

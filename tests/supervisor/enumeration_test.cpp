@@ -63,8 +63,8 @@ void set_faults(unsigned bits, Inputs& in) {
   in.bridge_restarted = bit(9) && bit(4);
   in.position_doubtful = bit(9) && bit(1);
   in.swing_zero_doubtful = bit(9) && bit(2);
-  in.brake_failed = bit(10);
-  in.relay_failed = bit(10) && bit(0);
+  in.brake_did_not_close = bit(10);
+  in.relay_did_not_open = bit(10) && bit(0);
   in.relay_closed = bit(10) && bit(1);
   in.estop_pressed = bit(11);
 }
@@ -136,7 +136,7 @@ const char* broken_rule(const Memory& before, const Inputs& in, const Memory& af
     return "relay off where all is off";
   if (was == State::fault && is != State::fault) return "FAULT ends by a restart only";
   if (estop && is != State::estop && is != State::fault) return "ESTOP wins";
-  if (is == State::fault && was != State::fault && !in.brake_failed && !in.relay_failed &&
+  if (is == State::fault && was != State::fault && !in.brake_did_not_close && !in.relay_did_not_open &&
       in.self_test != SelfTest::failed) {
     return "FAULT has three causes";
   }

@@ -40,8 +40,8 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
 /// speed.
 /// @return true when a brake has not closed: an axis has moved farther than twice its stopping distance plus
 ///   brake_slip, or its brake does not report closed in time
-[[nodiscard]] bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
-                                const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;
+[[nodiscard]] bool brake_did_not_close(const Limits& limits, double now_s, const MotionMemory& motion,
+                                       const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;
 
 /// Start of the time without watchdog permission.
 struct RelayMemory {
@@ -51,7 +51,7 @@ struct RelayMemory {
 
 /// Call at every tick with a sample while the watchdog permission is withheld.
 /// @return true when the relay still reports closed although it must have opened: its contacts are welded
-[[nodiscard]] bool relay_failed(const Limits& limits, double now_s, bool relay_closed,
-                                RelayMemory& memory) noexcept;
+[[nodiscard]] bool relay_did_not_open(const Limits& limits, double now_s, bool relay_closed,
+                                      RelayMemory& memory) noexcept;
 
 }  // namespace crane::supervisor

@@ -44,8 +44,8 @@ struct Inputs {
   std::size_t doubtful_axis = 0;     ///< first axis with such a position, < kAxes
   bool swing_zero_doubtful = false;  ///< the load swung when the bridge started
   bool overrun = false;              ///< too many late ticks in a row
-  bool brake_failed = false;         ///< see motion.hpp
-  bool relay_failed = false;         ///< see motion.hpp
+  bool brake_did_not_close = false;  ///< see motion.hpp
+  bool relay_did_not_open = false;   ///< see motion.hpp
   bool relay_closed = false;         ///< the relay is still closed although its permission is withheld
   bool moved_while_arming = false;   ///< an axis moved while the brakes were being opened
   bool demand_near_zero = false;     ///< true: the demand matches a crane at rest
