@@ -18,7 +18,7 @@ class BridgeClock {
     begins_anew   ///< kAgreeing samples contradict the earlier ones and agree with each other: the bridge has
                   ///< been restarted
   };
-  /// Longer than the time in which missing samples stop an armed crane.
+  /// Samples: at 100 Hz 1 s, longer than the silence that stops an armed crane (20 to 50 ms).
   static constexpr int kAgreeing = 100;
 
   explicit BridgeClock(std::int64_t period_ns) : period_ns_{period_ns} {}
