@@ -38,9 +38,8 @@ struct Patience {
 /// a reader and crane/reply a writer, and is repeated every 100 ms until the answer. Any other request is
 /// sent once, after the supervisor has answered a probe; a move or a session of the stick also waits for a
 /// sample of crane/reference.
-/// @param wanted  without `newest_status`, the request names the newest status; with it, the supervisor
-/// refuses the
-///   request if the crane has stopped since this status
+/// @param wanted  without `newest_status`, the request names the newest status that this program receives;
+///   with it, the supervisor refuses the request if the crane has stopped since this status
 /// @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 

@@ -27,8 +27,7 @@ class StepTiming {
   /// delivered. One pause must not count as several missing ticks; therefore the function extends the wait,
   /// once per step.
   /// @param open  true: a state waits for its demand. The wait then lasts two periods longer, because the
-  /// tick
-  ///   join normally ends it
+  ///   tick join normally ends it
   /// @return true when the supervisor steps now without a state
   bool is_silent(bool open, std::int64_t now_ns);
 

@@ -84,9 +84,9 @@ using EventHandler = std::function<void(const Event&)>;
 
 /// Quality of service of one endpoint beyond that of its topic.
 struct EndpointOptions {
-  /// Publisher: keeps its samples for late-joining readers. For loop and script topics (idl/README.md);
-  /// publishers of log and status topics always keep them. Subscriber: also receives samples that publishers
-  /// kept from the time before it joined; subscribers of status topics always do.
+  /// Publisher of a loop or script topic (idl/README.md): keeps its samples for late-joining readers;
+  /// publishers of log and status topics always do. Subscriber: also receives samples that publishers kept
+  /// from the time before it joined; subscribers of status topics always do.
   bool history = false;
   /// EventKind::deadline_missed when no sample arrives for this time; 0: no deadline. A reader matches only
   /// writers that offer a deadline and a lease at least as short. The memory back end has no clock and

@@ -28,8 +28,8 @@ struct FilterMemory {
 /// y(k) = -2q y(k-1) - q^2 y(k-2) + 3 f_s/(2 + sqrt 3) (x(k) - x(k-2)), q = 2 - sqrt 3    (4.10), corrected
 [[nodiscard]] FilterSection al_alaoui_second_order(double sample_rate_hz) noexcept;
 /// Second-order Butterworth filter (bilinear transform with prewarping), -3 dB at cutoff_ratio * f_s.
-/// @param cutoff_ratio  cut-off frequency / sampling frequency, in (0, 0.5), or 0: no filter. The source has
-///   0.05
+/// @param cutoff_ratio  cut-off frequency / sampling frequency, in (0, 0.5); 0.05 in the source; or 0: no
+///   filter
 [[nodiscard]] FilterSection butterworth_low_pass(double cutoff_ratio) noexcept;
 
 }  // namespace crane::control

@@ -2,8 +2,8 @@
 /// Input shapers convolve a reference with two or three impulses, whose swings cancel each other. The shares
 /// of the impulses add up to one. Swing feedback changes the frequency of the swing: with such a controller,
 /// the swing of the shaped motion must be a part of the reference (stick.hpp). Sources: Singer and Seering
-/// 1990; Singhose, Seering and Singer 1994. T: assumed load period. f: actual frequency of the swing. r = f
-/// T: ratio of actual to assumed frequency. V = 0.05. For an undamped load:
+/// 1990; Singhose, Seering and Singer 1994. T: assumed load period. f: actual frequency of the swing.
+/// r = f T: ratio of actual to assumed frequency. V = 0.05. For an undamped load:
 ///   name  shares                        times        residual swing / swing of the unshaped reference
 ///   zv    1/2, 1/2                      0, T/2       |cos(pi r/2)|
 ///   zvd   1/4, 1/2, 1/4                 0, T/2, T    cos^2(pi r/2)
