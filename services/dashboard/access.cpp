@@ -12,15 +12,18 @@
 namespace crane::dashboard {
 namespace {
 
-/// "127.0.0.1:8765" -> "127.0.0.1", "[::1]:8765" -> "::1"
+/// True for "" and ":8765".
+bool is_port(std::string_view text) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return text.empty() || (text.starts_with(':') && std::ranges::all_of(text.substr(1), digit));
+}
+
+/// "127.0.0.1:8765" -> "127.0.0.1", "[::1]:8765" -> "::1". @return empty for a malformed header
 std::string_view without_port(std::string_view host) {
-  if (host.starts_with('[')) {
-    const auto end = host.find(']');
-    if (end == std::string_view::npos) return {};
-    const auto rest = host.substr(end + 1);
-    return rest.empty() || rest.starts_with(':') ? host.substr(1, end - 1) : std::string_view{};
-  }
-  return host.substr(0, host.rfind(':'));
+  const bool v6 = host.starts_with('[');
+  const auto end = v6 ? host.find(']') : std::min(host.find(':'), host.size());
+  if (end == std::string_view::npos || !is_port(host.substr(end + (v6 ? 1 : 0)))) return {};
+  return v6 ? host.substr(1, end - 1) : host.substr(0, end);
 }
 
 bool is_address(std::string_view text) {

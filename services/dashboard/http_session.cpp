@@ -1,5 +1,7 @@
 #include "dashboard/http_session.hpp"
 
+#include <algorithm>
+#include <array>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -109,8 +111,17 @@ class HttpSession final : public Displaceable, public std::enable_shared_from_th
     if (error && error.category() == http::make_error_code(http::error::bad_method).category())
       return refuse(400, "this is no HTTP request");
     if (error) return close();
+    if (repeats_a_header()) return refuse(400, "a header that the dashboard reads appears more than once");
     if (beast::websocket::is_upgrade(parser_->get())) return upgrade();
     answer();
+  }
+
+  /// A proxy may read another one of two equal headers than the dashboard.
+  [[nodiscard]] bool repeats_a_header() const {
+    const auto& request = parser_->get();
+    return std::ranges::any_of(std::array{"Host", "Origin", "Sec-Fetch-Site", "Sec-Fetch-Dest",
+                                          "Authorization", "Content-Type", "X-Crane-Seat", "X-Crane-Seen"},
+                               [&](const char* name) { return request.count(name) > 1; });
   }
 
   [[nodiscard]] Visitor visitor() const {

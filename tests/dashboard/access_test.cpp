@@ -48,6 +48,19 @@ TEST(Access, AForeignNameForThisComputerIsRefusedAlsoWithAMatchingOrigin) {
   EXPECT_NE(why_not_operate(kRules, visitor), "");
 }
 
+TEST(Access, AHostIsAnAddressOrANameAndAtMostAPort) {
+  auto visitor = kAtTheRig;
+  for (const auto* host : {"127.0.0.1", "127.0.0.1:8765", "[::1]", "[::1]:8765", "localhost:1"}) {
+    visitor.host = host;
+    EXPECT_TRUE(host_allowed(kRules, visitor)) << host;
+  }
+  for (const auto* host : {"127.0.0.1:8765@evil.example", "127.0.0.1@evil.example",
+                           "127.0.0.1:8765:evil.example", "[::1]evil.example", "[::1", ":8765", ""}) {
+    visitor.host = host;
+    EXPECT_FALSE(host_allowed(kRules, visitor)) << host;
+  }
+}
+
 TEST(Access, APageOfAnotherOriginNeitherReadsNorOperates) {
   auto visitor = kAtTheRig;
   visitor.origin = "http://evil.example";

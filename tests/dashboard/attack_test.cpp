@@ -178,6 +178,19 @@ TEST_F(ServerTest, APageOfAnotherOriginLoadsNothingButMayLinkToThePage) {
   EXPECT_EQ(exchange(request).result_int(), 200U);
 }
 
+/// A proxy in front of the dashboard may check the other one of the two headers.
+TEST_F(ServerTest, ARequestWithTwoHeadersOfOneNameIsRefused) {
+  const std::string head =
+      "POST /api/request HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n";
+  const std::string body = "Content-Length: 15\r\nConnection: close\r\n\r\n{\"kind\":\"stop\"}";
+  for (const auto* second : {"Host: evil.example\r\n", "Content-Type: text/plain\r\n",
+                             "Origin: http://127.0.0.1\r\nOrigin: http://evil.example\r\n"})
+    EXPECT_NE(raw(head + second + body).find(" 400 "), std::string::npos) << second;
+  EXPECT_EQ(requests_, 0);
+  EXPECT_NE(raw(head + body).find(" 200 "), std::string::npos) << "without a second header it is refused too";
+  EXPECT_EQ(requests_, 1);
+}
+
 TEST_F(ServerTest, AForeignNameForThisComputerGetsNoWebSocket) {
   Viewer viewer{connect()};
   viewer.set_option(beast::websocket::stream_base::decorator([](beast::websocket::request_type& request) {
