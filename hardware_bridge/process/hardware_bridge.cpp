@@ -1,3 +1,5 @@
+#include "crane/boards/board_uses.hpp"
+#include "crane/boards/registry.hpp"
 #include "crane/bridge/bridge.hpp"
 #include "crane/bridge/component.hpp"
 
@@ -15,8 +17,9 @@ runtime::ComponentSpec hardware_bridge_spec() {
           .reads = bridge_reads(),
           .writes = bridge_writes(),
           .make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
-            return std::make_unique<Bridge>(context,
-                                            board_kind_of(context.rig).make(context.rig, context.bus));
+            auto board = board_kind_of(context.rig).make(context.rig, context.bus);
+            count_board_use(context.rig, context.bus.crane, context.bus.domain);
+            return std::make_unique<Bridge>(context, std::move(board));
           }};
 }
 

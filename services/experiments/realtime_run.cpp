@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "crane/boards/board_uses.hpp"
 #include "crane/files/temporary_directory.hpp"
 #include "experiments/realtime_session.hpp"
 #include "experiments/started_rig_file.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
+using namespace std::string_literals;
 
 struct Action {
   double at_s;
@@ -97,6 +99,8 @@ std::string end_problem(const RealtimeSession& session, const configuration::Rig
   return {};
 }
 
+constexpr const char* kGoOn = ". Set [start] to the present position, and start the remaining runs";
+
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
 
 }  // namespace
@@ -117,14 +121,22 @@ RealtimeRuns::End RealtimeRuns::observed_end(RealtimeSession& session, const con
 RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,
                               const experiment::Scenario& scenario) {
   if (!end_) return run_from_start(rig_file, controller, scenario);
-  if (!end_->problem.empty())
-    throw SessionError(end_->problem + ". Set [start] to the present position, and start the remaining runs");
+  if (!end_->problem.empty()) throw SessionError(end_->problem + kGoOn);
   auto rig = configuration::load_rig(rig_file);
   rig.start.position = end_->position;
   const files::TemporaryDirectory directory{"crane_run"};
   const auto started = directory.path() / "rig.toml";
   write_started_rig(started, rig);
   return run_from_start(started, controller, scenario);
+}
+
+void RealtimeRuns::require_sole_use(const configuration::Rig& rig) {
+  const std::uint64_t uses = bridge::board_uses(rig, options_.bus.crane, options_.bus.domain);
+  // While the bridge of this run has the board, no other bridge can open it and move the crane.
+  if (board_uses_ && uses != *board_uses_ + 1)
+    throw SessionError(
+        "another hardware bridge has used the board since the run before: the crane may have moved"s + kGoOn);
+  board_uses_ = uses;
 }
 
 RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, const std::string& controller,
@@ -142,6 +154,7 @@ RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, 
   observer.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
   bus::Bus bus{runtime::bus_options(observer, "crane_run", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
+  if (real) require_sole_use(rig);
   RealtimeSession session{bus, [&children] {
                             if (const auto ended = children.ended())
                               throw SessionError(stack::describe(*ended));

@@ -2,6 +2,7 @@
 /// Runs scenarios in real time with a stack of processes, on a real or simulated crane: reset, arm, a move to
 /// the start of the scenario, then its moves and excitations at their times.
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -42,7 +43,8 @@ class RealtimeRuns {
   /// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
   /// @throws SessionError when the crane was stopped; when, at the end of the previous run, the load was
   ///   swinging, a brake was open, or the position was not observed; when another operator has reset the
-  ///   crane since the previous run; configuration::ConfigurationError, std::runtime_error
+  ///   crane, or another bridge has opened the board, since the previous run;
+  ///   configuration::ConfigurationError, std::runtime_error
   [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
                                 const experiment::Scenario& scenario);
 
@@ -57,9 +59,14 @@ class RealtimeRuns {
   [[nodiscard]] RealtimeRun run_from_start(const std::filesystem::path& rig_file,
                                            const std::string& controller,
                                            const experiment::Scenario& scenario);
+  /// Call when the bridge of a run has opened the board. @throws SessionError when another bridge has opened
+  /// it since the previous run
+  void require_sole_use(const configuration::Rig& rig);
 
   RealtimeRunOptions options_;
   std::optional<End> end_;  ///< of the last run on a real crane
+  /// bridge::board_uses() during the last run on a real crane.
+  std::optional<std::uint64_t> board_uses_;
 };
 
 }  // namespace crane::experiments

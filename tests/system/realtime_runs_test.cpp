@@ -7,9 +7,11 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "experiments/realtime_run.hpp"
+#include "experiments/realtime_session.hpp"
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
+#include "stack/launch.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -102,15 +104,19 @@ experiment::Scenario scenario(const TemporaryDirectory& directory, const std::st
   return experiment::load_scenario(file, &rig);
 }
 
-/// Without the place of the first run, the second bridge would measure [start], and the limits would lie
-/// elsewhere on the rail.
-TEST(RealtimeRuns, OnARealCraneBeginWhereTheRunBeforeHasEnded) {
-  const TemporaryDirectory directory;
+experiments::RealtimeRunOptions on_the_emulated_board() {
   experiments::RealtimeRunOptions options;
   options.plant = stack::Plant::hardware;
   options.bus.domain = kDomain;
   options.bus.crane = crane_name();
-  experiments::RealtimeRuns runs{options};
+  return options;
+}
+
+/// Without the place of the first run, the second bridge would measure [start], and the limits would lie
+/// elsewhere on the rail.
+TEST(RealtimeRuns, OnARealCraneBeginWhereTheRunBeforeHasEnded) {
+  const TemporaryDirectory directory;
+  experiments::RealtimeRuns runs{on_the_emulated_board()};
   const auto rig = stack::find_rig("emulated_servo_to_go");
   const auto there =
       runs.run(rig, "gain_scheduling_partial",
@@ -126,6 +132,32 @@ TEST(RealtimeRuns, OnARealCraneBeginWhereTheRunBeforeHasEnded) {
   EXPECT_NEAR(trolley(there).back(), 0.6, 0.02);
   EXPECT_NEAR(trolley(stays).front(), trolley(there).back(), 0.005);
   EXPECT_NEAR(trolley(stays).back(), trolley(there).back(), 0.02);
+}
+
+/// A program can be suspended between two runs. Another program can then move the crane and end.
+TEST(RealtimeRuns, OnARealCraneEndWhenAnotherBridgeHasUsedTheBoard) {
+  const TemporaryDirectory directory;
+  const auto options = on_the_emulated_board();
+  experiments::RealtimeRuns runs{options};
+  const auto file = stack::find_rig("emulated_servo_to_go");
+  const auto rests = scenario(directory, "rests.toml", "");
+  (void)runs.run(file, "gain_scheduling_partial", rests);
+  {
+    const auto rig = configuration::load_rig(file);
+    stack::LaunchOptions other;
+    other.bus = options.bus;
+    other.rig = file.string();
+    stack::ChildProcesses children;
+    const auto specs = stack::stack_with(options.plant);
+    stack::launch_rig(children, rig, other);
+    stack::launch(children, specs, other);
+    bus::Bus bus{runtime::bus_options(options.bus, "test", crane_SOURCE_MONITOR, 0)};
+    stack::wait_until_ready(children, specs, bus, 15s);
+    children.stop();
+  }
+  EXPECT_THAT([&] { (void)runs.run(file, "gain_scheduling_partial", rests); },
+              testing::ThrowsMessage<experiments::SessionError>(
+                  testing::HasSubstr("another hardware bridge has used the board")));
 }
 
 }  // namespace
