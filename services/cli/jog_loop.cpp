@@ -35,11 +35,13 @@ int JogLoop::run() {
   while (!stick_.quits() && stick_.problem().empty() && !runtime::stop_requested()) {
     read();
     const auto stick = stick_.deflection(seconds());
+    const bool deflects = stick && *stick != Deflection{};
+    if (!deflects) must_release_ = false;
     if (const auto step = stick_.take_step()) {
       inch(*step);
     } else if (stick_.take_return()) {
       go_back();
-    } else if (!stick || *stick == Deflection{}) {
+    } else if (!deflects || must_release_) {
       bus_.wait(std::chrono::milliseconds{20});
     } else if (!drive()) {
       return runtime::kExitFailed;
@@ -63,6 +65,9 @@ bool JogLoop::drive() {
   };
   const auto over = [this] { return stick_.quits() || !stick_.problem().empty() || session_.in_hold(); };
   session_.drive(1e6, true, stick, over);
+  must_release_ = deflected_;
+  if (must_release_)
+    std::cerr << "jog: the crane has stopped although the stick is deflected: release the stick\n";
   note_release(std::nullopt);
   session_.release(options_.timeout_s);
   moves_.receive();

@@ -41,7 +41,10 @@ class JogLoop {
   JogLoopOptions options_;
   JogSession session_;
   JogMoves moves_;
-  bool deflected_ = false;                           ///< at the last call of note_release()
+  bool deflected_ = false;  ///< at the last call of note_release()
+  /// The last session has ended although the stick was deflected: the supervisor has ended it because of a
+  /// silent, late or stuck stick. A deflection acts again after a release only.
+  bool must_release_ = false;
   std::optional<std::array<double, 3>> stop_point_;  ///< m, rad, m of cable
 };
 

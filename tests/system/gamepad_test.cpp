@@ -26,10 +26,11 @@ constexpr std::array kTrolley{true, false, false};
 
 /// Replaces the device. The test sets its state while the operator's loop reads its events.
 struct HandAtTheGamepad {
-  std::atomic<bool> held = false, unplugged = false, returns = false;
+  std::atomic<bool> held = false, unplugged = false, returns = false, blocked = false;
   std::atomic<int> stick = 0;
 
   int read(std::vector<cli::GamepadEvent>& events) {
+    blocked.wait(true);
     if (unplugged) return ENODEV;
     if (held != was_held_) events.push_back({EV_KEY, BTN_TL, held ? 1 : 0});
     was_held_ = held;
@@ -52,10 +53,16 @@ class JogGamepad : public testing::Test {
     hand_.stick = kAway;
   }
   ~JogGamepad() override {
+    block(false);
     hand_.unplugged = true;  // ends the operator's loop
     if (run_.valid()) run_.wait();
   }
 
+  /// Suspends or continues the operator's loop.
+  void block(bool wanted) {
+    hand_.blocked = wanted;
+    hand_.blocked.notify_all();
+  }
   /// Runs the operator's loop. @return its exit code, or the message of its exception
   std::string operate() {
     auto options = stack_.bus_options();
@@ -123,6 +130,21 @@ TEST_F(JogGamepad, StopsWhenTheDeadMansButtonIsReleasedAndDoesNotResumeWithADefl
   ASSERT_TRUE(until_hold());
   stack_.listen(1s);
   hand_.held = true;
+  stack_.forget();
+  stack_.listen(2s);
+  EXPECT_LT(speed_mps(), 0.02);
+  EXPECT_EQ(stack_.observer().statuses().back().state, crane_STATE_HOLD);
+  hand_.stick = 0;
+  stack_.listen(200ms);
+  hand_.stick = kAway;
+  EXPECT_TRUE(until_the_trolley_drives()) << "the stick was in the centre";
+}
+
+TEST_F(JogGamepad, WhoseProgramWasSuspendedActsAgainOnlyAfterARelease) {
+  ASSERT_TRUE(until_the_trolley_drives());
+  block(true);
+  ASSERT_TRUE(until_hold());
+  block(false);
   stack_.forget();
   stack_.listen(2s);
   EXPECT_LT(speed_mps(), 0.02);
