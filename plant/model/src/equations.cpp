@@ -81,33 +81,40 @@ Angles swing_angles(const Parameters& p, const State& s) noexcept {
 
 Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
                             const Locks& locks) noexcept {
-  return accelerations(p, s, swing_angles(p, s), forces, cable_mps2, locks);
+  return solution(motion_equations(p, s, swing_angles(p, s), forces, cable_mps2, locks), locks);
 }
 
-Accelerations accelerations(const Parameters& p, const State& s, const Angles& angles, const Forces& forces,
-                            double cable_mps2, const Locks& locks) noexcept {
+MotionEquations motion_equations(const Parameters& p, const State& s, const Angles& angles,
+                                 const Forces& forces, double cable_mps2, const Locks& locks) noexcept {
   const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
   motion::Motion<double> at = motion_of(s, angles, hoisting);
   if (tilts(p)) at = tilted::level(p, at);
   constexpr auto kMoving = motion::Cable::moving;
-  Column right{};  // the equations of locked coordinates are not used
+  MotionEquations equations{.mass = mass(p, s, angles), .net = {}, .cable_mps2 = hoisting};
+  Forces& net = equations.net;
   if (!locks.axis[kTrolley])
-    right.x =
+    net.trolley_n =
         forces.trolley_n - (tilts(p) ? tilted::trolley_bias(p, at) : motion::trolley_bias<kMoving>(p, at));
-  if (!locks.radial) right.phi = forces.radial_nm - motion::radial_bias<kMoving>(p, at);
-  if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - motion::slew_bias<kMoving>(p, at);
-  if (!locks.tangential) right.theta = forces.tangential_nm - motion::tangential_bias<kMoving>(p, at);
-  const Column q = solve(mass(p, s, angles), right, locks);
+  if (!locks.radial) net.radial_nm = forces.radial_nm - motion::radial_bias<kMoving>(p, at);
+  if (!locks.axis[kSlew]) net.slew_nm = forces.slew_nm - motion::slew_bias<kMoving>(p, at);
+  if (!locks.tangential) net.tangential_nm = forces.tangential_nm - motion::tangential_bias<kMoving>(p, at);
+  return equations;
+}
+
+Accelerations solution(const MotionEquations& equations, const Locks& locks) noexcept {
+  const Forces& net = equations.net;
+  const Column q = solve(
+      equations.mass,
+      {.x = net.trolley_n, .phi = net.radial_nm, .gamma = net.slew_nm, .theta = net.tangential_nm}, locks);
   return {.trolley_mps2 = q.x,
           .radial_radps2 = q.phi,
           .slew_radps2 = q.gamma,
           .tangential_radps2 = q.theta,
-          .cable_mps2 = hoisting};
+          .cable_mps2 = equations.cable_mps2};
 }
 
-SwingResponse swing_response(const Parameters& p, const State& s, const Angles& angles, double trolley_mps2,
-                             double slew_radps2, const Locks& locks) noexcept {
-  const Mass m = mass(p, s, angles);
+SwingResponse swing_response(const Mass& m, double trolley_mps2, double slew_radps2,
+                             const Locks& locks) noexcept {
   SwingResponse response;
   if (!locks.radial && m.m22 > 0)
     response.radial_radps2 = -(m.m12 * trolley_mps2 + m.m23 * slew_radps2) / m.m22;
@@ -126,13 +133,17 @@ DriveResponse drive_response(const Parameters& p, const State& s, const Locks& l
 }
 
 CableTension cable_tension(const Parameters& p, const State& s) noexcept {
-  const Angles a = level_angles(p, s);
+  return cable_tension(p, s, level_angles(p, s));
+}
+
+CableTension cable_tension(const Parameters& p, const State& s, const Angles& a) noexcept {
   const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
   const double x = p.tilt_cosine * s.trolley_m, x_rate = p.tilt_cosine * s.trolley_mps;
   // horizontal components of the cable's unit vector in the slewing frame, and their rates
   const double ex = -a.ct * a.sf, ey = a.st;
   const double ex_rate = a.st * a.sf * t - a.ct * a.cf * f, ey_rate = a.ct * t;
-  const double along_jib = -a.ct * std::sin(s.radial_rad);  // component of the unit vector
+  // component of the unit vector; phi is the sum of its value in the slewing frame and the tilt
+  const double along_jib = -a.ct * (a.sf * p.tilt_cosine + a.cf * p.tilt_sine);
   const double centripetal = l * (f * f * a.ct * a.ct + t * t) + g * g * (x * ex + l * (ex * ex + ey * ey));
   const double coriolis = 2 * g * (x_rate * ey + l * (ex_rate * ey - ey_rate * ex));
   const double m = p.load_mass_kg;
@@ -195,7 +206,10 @@ Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& p, const State& s,
 }
 
 Eigen::Vector3d load_velocity_mps(const Parameters& p, const State& s) noexcept {
-  const Angles a = level_angles(p, s);
+  return load_velocity_mps(p, s, level_angles(p, s));
+}
+
+Eigen::Vector3d load_velocity_mps(const Parameters& p, const State& s, const Angles& a) noexcept {
   const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
   const Eigen::Vector3d along_cable{-a.ct * a.sf, a.st, -a.ct * a.cf};
   return load_jacobian(p, s, a) * rates + along_cable * s.cable_mps;

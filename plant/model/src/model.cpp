@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tilted_jib.hpp"
+
 namespace crane::plant {
 namespace {
 
@@ -134,7 +136,8 @@ State Model::displaced(const State& state, const InnerState& inner) const noexce
   return seen;
 }
 
-Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxis& friction) const noexcept {
+Forces Model::forces(const State& seen, const motion::Angles<double>& cable, const Actuation& actuation,
+                     const PerAxis& friction) const noexcept {
   const Parameters& p = parameters_;
   const PerAxis& v = actuation.drive_v;
   Forces sum;
@@ -142,7 +145,7 @@ Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxi
                   actuation.brake_effort[kTrolley];
   sum.slew_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv * (v[kSlew] - friction[kSlew]) +
                 actuation.brake_effort[kSlew];
-  for (const auto& term : load_terms_) term->add_force(p, seen, sum);
+  for (const auto& term : load_terms_) term->add_force(p, seen, cable, sum);
   return sum;
 }
 
@@ -155,34 +158,50 @@ double Model::hoisting_mps2(const State& state, const Actuation& actuation,
          p.hoist_lag_s;
 }
 
-Accelerations Model::accelerations(const State& state, const Actuation& actuation, const PerAxis& friction,
-                                   const InnerState& inner,
-                                   InnerAccelerations& inner_accelerations) const noexcept {
+ModelEquations Model::equations(const State& state, const Actuation& actuation, const PerAxis& friction,
+                                const InnerState& inner) const noexcept {
   const Parameters& p = parameters_;
-  const double hoisting = hoisting_mps2(state, actuation, friction);
-  if (structure_terms_.empty())
-    return plant::accelerations(p, state, forces(state, actuation, friction), hoisting, actuation.locks);
-  const State seen = displaced(state, inner);
-  Forces sum = forces(seen, actuation, friction);
-  InnerEquations equations{};
+  const State seen = structure_terms_.empty() ? state : displaced(state, inner);
+  const motion::Angles<double> angles = swing_angles(p, seen), cable = tilted::level(p, angles);
+  Forces sum = forces(seen, cable, actuation, friction);
+  ModelEquations result;
   for (const auto& [term, first] : structure_terms_)
-    term->add_inner_motion(p, seen, &inner[first], sum, &equations[first]);
-  const motion::Angles<double> angles = swing_angles(p, seen);
-  Accelerations result = plant::accelerations(p, seen, angles, sum, hoisting, actuation.locks);
+    term->add_inner_motion(p, seen, cable, &inner[first], sum, &result.inner[first]);
+  result.motion =
+      motion_equations(p, seen, angles, sum, hoisting_mps2(state, actuation, friction), actuation.locks);
+  return result;
+}
+
+void Model::add_friction(const PerAxis& friction, ModelEquations& equations) const noexcept {
+  const Parameters& p = parameters_;
+  equations.motion.net.trolley_n -= p.trolley_inertia_kg * p.trolley_gain_mps2pv * friction[kTrolley];
+  equations.motion.net.slew_nm -= p.jib_inertia_kgm2 * p.slew_gain_radps2pv * friction[kSlew];
+}
+
+Accelerations Model::solution(const ModelEquations& equations, const Actuation& actuation,
+                              InnerAccelerations& inner_accelerations) const noexcept {
+  Accelerations result = plant::solution(equations.motion, actuation.locks);
+  if (structure_terms_.empty()) return result;
   const auto accelerate = [&] {
     for (std::size_t i = 0; i < inner_coordinates_; ++i)
-      if (!actuation.prescribed[i]) inner_accelerations[i] = equations[i].acceleration(result);
+      if (!actuation.prescribed[i]) inner_accelerations[i] = equations.inner[i].acceleration(result);
   };
   accelerate();
   Displacement pushed;
   for (const auto& [term, first] : structure_terms_) term->displace(&inner_accelerations[first], pushed);
   if (pushed.trolley_m == 0 && pushed.slew_rad == 0) return result;
   const SwingResponse swing =
-      swing_response(p, seen, angles, pushed.trolley_m, pushed.slew_rad, actuation.locks);
+      swing_response(equations.motion.mass, pushed.trolley_m, pushed.slew_rad, actuation.locks);
   result.radial_radps2 += swing.radial_radps2;
   result.tangential_radps2 += swing.tangential_radps2;
   if (structure_terms_.size() > 1) accelerate();  // other terms depend on the changed swing acceleration
   return result;
+}
+
+Accelerations Model::accelerations(const State& state, const Actuation& actuation, const PerAxis& friction,
+                                   const InnerState& inner,
+                                   InnerAccelerations& inner_accelerations) const noexcept {
+  return solution(equations(state, actuation, friction, inner), actuation, inner_accelerations);
 }
 
 void Model::correct(const State& state, const PerAxis& unexplained, const InnerState& before,

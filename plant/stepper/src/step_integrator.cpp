@@ -36,11 +36,11 @@ void StepIntegrator::step(const MeasuredKinematics& at) {
   plant::InnerAccelerations inner_acceleration{};
   actuation_.prescribed = prescribed;
   prescribe_inner(inner_middle, inner_acceleration);
-  plant::PerAxis friction{};
-  if (simulated_[kTrolleyPosition] || simulated_[kSlewAngle]) friction = move_drives(middle, inner_middle);
+  plant::ModelEquations equations = model_.equations(middle, actuation_, {}, inner_middle);
+  if (simulated_[kTrolleyPosition] || simulated_[kSlewAngle])
+    model_.add_friction(move_drives(middle, inner_middle, equations), equations);
   if (simulated_[kRadialSwing] || simulated_[kTangentialSwing] || model_.inner_coordinates() > 0) {
-    const plant::Accelerations a =
-        model_.accelerations(middle, actuation_, friction, inner_middle, inner_acceleration);
+    const plant::Accelerations a = model_.solution(equations, actuation_, inner_acceleration);
     for (const Output swing : {kRadialSwing, kTangentialSwing})
       if (simulated_[swing]) kick(swing, acceleration_of(a, swing));
     kick_inner(inner_acceleration);
@@ -108,9 +108,10 @@ void StepIntegrator::kick_inner(const plant::InnerAccelerations& accelerations) 
   }
 }
 
-plant::PerAxis StepIntegrator::move_drives(const State& middle, const plant::InnerState& inner_middle) {
+plant::PerAxis StepIntegrator::move_drives(const State& middle, const plant::InnerState& inner_middle,
+                                           const plant::ModelEquations& without_friction) {
   plant::InnerAccelerations ignored{};
-  const plant::Accelerations a = model_.accelerations(middle, actuation_, {}, inner_middle, ignored);
+  const plant::Accelerations a = model_.solution(without_friction, actuation_, ignored);
   const plant::PerAxis free{a.trolley_mps2, a.slew_radps2, 0};
   if (!gains_known_) gain_ = model_.friction_response(middle, actuation_.locks, inner_middle);
   gains_known_ = true;

@@ -47,10 +47,10 @@ class Backlash final : public Term {
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (gap_ > 0) (slew_ ? sum.slew_rad : sum.trolley_m) += inner[0];
   }
-  void add_inner_motion(const Parameters& crane, const State& state, const Inner* inner, Forces& sum,
-                        InnerEquation* equations) const noexcept override {
+  void add_inner_motion(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                        const Inner* inner, Forces& sum, InnerEquation* equations) const noexcept override {
     if (gap_ == 0) return;
-    const double flanks = contact(inner[0]), load_force = far_.load_force(crane, state);
+    const double flanks = contact(inner[0]), load_force = far_.load_force(crane, state, cable);
     far_.add_motor_reaction(crane, flanks, load_force, sum);
     const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the load side
     const double guide = guide_deceleration_ * smooth_sign(speed, kGuideSmoothing);

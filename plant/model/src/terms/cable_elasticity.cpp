@@ -22,11 +22,12 @@ class CableElasticity final : public Term {
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (compliance_mpn_ > 0) sum.cable_m += inner[0];
   }
-  void add_inner_motion(const Parameters& crane, const State& state, const Inner* inner, Forces& /*sum*/,
+  void add_inner_motion(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                        const Inner* inner, Forces& /*sum*/,
                         InnerEquation* equations) const noexcept override {
     const double inertia = compliance_mpn_ * crane.load_mass_kg;  // c m = 1 / omega^2
     if (inertia * kRigid_radps2 < 1) return;
-    const CableTension tension = cable_tension(crane, state);
+    const CableTension tension = cable_tension(crane, state, cable);
     const double m = crane.load_mass_kg;
     equations[0] = {.free = tension.free_n / m - crane.gravity_mps2 - inner[0].position / inertia -
                             2 * damping_ratio_ / std::sqrt(inertia) * inner[0].rate,

@@ -48,19 +48,17 @@ class DoublePendulum final : public Term {
 
   /// The lower cable pulls at the hook. Newton's law of both masses, subtracted: l e_2'' = T_1 / m_1 e_1 -
   /// (...) e_2, projected on the derivatives of e_2, which are orthogonal to e_2 and to each other.
-  void add_inner_motion(const Parameters& crane, const State& s, const Inner* inner, Forces& sum,
-                        InnerEquation* equations) const noexcept override {
+  void add_inner_motion(const Parameters& crane, const State& s, const motion::Angles<double>& cable,
+                        const Inner* inner, Forces& sum, InnerEquation* equations) const noexcept override {
     if (lower_share_ == 0) return;
     const double turn = s.slew_radps;
-    const auto upper_angles = level_angles(crane, s.radial_rad, s.tangential_rad);
-    const Direction upper{upper_angles, s.radial_radps, s.tangential_radps, turn};
+    const Direction upper{cable, s.radial_radps, s.tangential_radps, turn};
     const Direction lower{
         level_angles(crane, s.radial_rad + inner[0].position, s.tangential_rad + inner[1].position),
         s.radial_radps + inner[0].rate, s.tangential_radps + inner[1].rate, turn};
     const Tensions pull = tensions(crane, s, upper, lower);
     add_generalised(
-        load_jacobian(crane, s, upper_angles).transpose() * (crane.load_mass_kg * pull.lower * lower.unit),
-        sum);
+        load_jacobian(crane, s, cable).transpose() * (crane.load_mass_kg * pull.lower * lower.unit), sum);
 
     const Eigen::Vector3d& e = lower.unit;
     const Eigen::Vector3d rotation = 2 * turn * Eigen::Vector3d{-lower.rate.y(), lower.rate.x(), 0} -

@@ -41,13 +41,15 @@ class FarSide {
   }
   /// Force P of the load on the far side, with the cable tension of a load at rest, N or N m. On a trolley, P
   /// includes the weight of the trolley along a tilted jib. 0 for a far side without inertia.
-  [[nodiscard]] double load_force(const Parameters& crane, const State& seen) const {
+  /// @param cable  as for Term::add_force()
+  [[nodiscard]] double load_force(const Parameters& crane, const State& seen,
+                                  const motion::Angles<double>& cable) const {
     if (!carries()) return 0;
-    const motion::Angles<double> a{seen.radial_rad, seen.tangential_rad};
-    const double tension_n =
-        crane.load_mass_kg * crane.gravity_mps2 * a.ct * (a.cf * crane.tilt_cosine + a.sf * crane.tilt_sine);
-    return slew_ ? tension_n * a.st * radius_m(crane, seen)
-                 : -tension_n * a.ct * a.sf - crane.trolley_mass_kg * crane.gravity_mps2 * crane.tilt_sine;
+    const double tension_n = crane.load_mass_kg * crane.gravity_mps2 * cable.ct * cable.cf;
+    const double radial_sine = cable.sf * crane.tilt_cosine + cable.cf * crane.tilt_sine;
+    return slew_ ? tension_n * cable.st * radius_m(crane, seen)
+                 : -tension_n * cable.ct * radial_sine -
+                       crane.trolley_mass_kg * crane.gravity_mps2 * crane.tilt_sine;
   }
   /// Adds the force on the motor when the connection accelerates the inertia j J by `connection`, m/s2 or
   /// rad/s2. @param load_force  P

@@ -20,10 +20,10 @@ class JibFlexibility final : public Term {
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (!rigid_) sum.slew_rad += inner[0];
   }
-  void add_inner_motion(const Parameters& crane, const State& state, const Inner* inner, Forces& sum,
-                        InnerEquation* equations) const noexcept override {
+  void add_inner_motion(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                        const Inner* inner, Forces& sum, InnerEquation* equations) const noexcept override {
     if (rigid_) return;
-    const double spring = spring_radps2(inner[0]), load_nm = far_.load_force(crane, state);
+    const double spring = spring_radps2(inner[0]), load_nm = far_.load_force(crane, state, cable);
     far_.add_motor_reaction(crane, spring, load_nm, sum);
     equations[0] = {.free = far_.acceleration(crane, state, spring, load_nm), .by_slew = -1};
   }

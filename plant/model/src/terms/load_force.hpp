@@ -12,9 +12,10 @@ inline void add_generalised(const Eigen::Vector4d& q, Forces& sum) {
   sum.tangential_nm += q[3];
 }
 
-inline void add_load_force(const Parameters& crane, const State& state, const Eigen::Vector3d& force_n,
-                           Forces& sum) {
-  add_generalised(load_jacobian(crane, state).transpose() * force_n, sum);
+/// @param cable  sines and cosines of the angles of the cable in the slewing frame
+inline void add_load_force(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                           const Eigen::Vector3d& force_n, Forces& sum) {
+  add_generalised(load_jacobian(crane, state, cable).transpose() * force_n, sum);
 }
 
 }  // namespace crane::plant

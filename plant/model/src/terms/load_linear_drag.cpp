@@ -8,8 +8,9 @@ class LoadLinearDrag final : public Term {
  public:
   explicit LoadLinearDrag(const TermSetting& s) : coefficient_nspm_(s.parameters.at("coefficient_nspm")) {}
 
-  void add_force(const Parameters& crane, const State& state, Forces& sum) const noexcept override {
-    add_load_force(crane, state, -coefficient_nspm_ * load_velocity_mps(crane, state), sum);
+  void add_force(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                 Forces& sum) const noexcept override {
+    add_load_force(crane, state, cable, -coefficient_nspm_ * load_velocity_mps(crane, state, cable), sum);
   }
 
  private:

@@ -9,9 +9,10 @@ class LoadQuadraticDrag final : public Term {
   explicit LoadQuadraticDrag(const TermSetting& s)
       : coefficient_ns2pm2_(s.parameters.at("coefficient_ns2pm2")) {}
 
-  void add_force(const Parameters& crane, const State& state, Forces& sum) const noexcept override {
-    const Eigen::Vector3d velocity_mps = load_velocity_mps(crane, state);
-    add_load_force(crane, state, -coefficient_ns2pm2_ * velocity_mps.norm() * velocity_mps, sum);
+  void add_force(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                 Forces& sum) const noexcept override {
+    const Eigen::Vector3d velocity_mps = load_velocity_mps(crane, state, cable);
+    add_load_force(crane, state, cable, -coefficient_ns2pm2_ * velocity_mps.norm() * velocity_mps, sum);
   }
 
  private:

@@ -11,10 +11,11 @@ class SteadyWind final : public Term {
   explicit SteadyWind(const TermSetting& s)
       : force_n_(s.parameters.at("force_n")), direction_rad_(s.parameters.at("direction_rad")) {}
 
-  void add_force(const Parameters& crane, const State& state, Forces& sum) const noexcept override {
+  void add_force(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                 Forces& sum) const noexcept override {
     const double angle_rad = direction_rad_ - state.slew_rad;  // relative to the jib
-    add_load_force(crane, state, force_n_ * Eigen::Vector3d{std::cos(angle_rad), std::sin(angle_rad), 0},
-                   sum);
+    add_load_force(crane, state, cable,
+                   force_n_ * Eigen::Vector3d{std::cos(angle_rad), std::sin(angle_rad), 0}, sum);
   }
 
  private:

@@ -15,7 +15,8 @@ class SwingPivotFriction final : public Term {
         coulomb_nm_(s.parameters.at("coulomb_nm")),
         smoothing_radps_(s.parameters.at("smoothing_radps")) {}
 
-  void add_force(const Parameters& /*crane*/, const State& state, Forces& sum) const noexcept override {
+  void add_force(const Parameters& /*crane*/, const State& state, const motion::Angles<double>& /*cable*/,
+                 Forces& sum) const noexcept override {
     if (radial_) sum.radial_nm -= torque_nm(state.radial_radps);
     if (tangential_) sum.tangential_nm -= torque_nm(state.tangential_radps);
   }

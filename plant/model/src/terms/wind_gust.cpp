@@ -28,12 +28,13 @@ class WindGust final : public Term {
     gust_mps_ = kept * gust_mps_ + scatter_mps_ * std::sqrt(1 - kept * kept) * normal_(random_);
   }
 
-  void add_force(const Parameters& crane, const State& state, Forces& sum) const noexcept override {
+  void add_force(const Parameters& crane, const State& state, const motion::Angles<double>& cable,
+                 Forces& sum) const noexcept override {
     const double angle_rad = direction_rad_ - state.slew_rad;  // relative to the jib
     const Eigen::Vector3d relative_mps =
         (mean_mps_ + gust_mps_) * Eigen::Vector3d{std::cos(angle_rad), std::sin(angle_rad), 0} -
-        load_velocity_mps(crane, state);
-    add_load_force(crane, state, coefficient_ns2pm2_ * relative_mps.norm() * relative_mps, sum);
+        load_velocity_mps(crane, state, cable);
+    add_load_force(crane, state, cable, coefficient_ns2pm2_ * relative_mps.norm() * relative_mps, sum);
   }
 
  private:

@@ -49,19 +49,28 @@ struct Locks {
 [[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
                                           const Forces& forces, double cable_mps2,
                                           const Locks& locks = {}) noexcept;
-/// @param angles  swing_angles(parameters, state), for callers that need them more than once
-[[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
-                                          const motion::Angles<double>& angles, const Forces& forces,
-                                          double cable_mps2, const Locks& locks) noexcept;
+
+/// The equations of motion at one state, M(q) q'' = F - h. They are linear in q'' and F, so that an
+/// integrator can solve them for several forces.
+struct MotionEquations {
+  motion::Mass<double> mass;
+  Forces net;             ///< F - h; 0 for a locked coordinate
+  double cable_mps2 = 0;  ///< L''
+};
+/// Arguments as for accelerations(). @param angles  swing_angles(parameters, state)
+[[nodiscard]] MotionEquations motion_equations(const Parameters& parameters, const State& state,
+                                               const motion::Angles<double>& angles, const Forces& forces,
+                                               double cable_mps2, const Locks& locks) noexcept;
+/// @return as accelerations()
+[[nodiscard]] Accelerations solution(const MotionEquations& equations, const Locks& locks) noexcept;
 
 /// Additional swing accelerations when the suspension point has the additional accelerations `trolley_mps2`
-/// (along the jib) and `slew_radps2`. @param angles  swing_angles(parameters, state)
+/// (along the jib) and `slew_radps2`.
 struct SwingResponse {
   double radial_radps2 = 0;
   double tangential_radps2 = 0;
 };
-[[nodiscard]] SwingResponse swing_response(const Parameters& parameters, const State& state,
-                                           const motion::Angles<double>& angles, double trolley_mps2,
+[[nodiscard]] SwingResponse swing_response(const motion::Mass<double>& mass, double trolley_mps2,
                                            double slew_radps2, const Locks& locks) noexcept;
 
 /// Accelerations of the unlocked drives per unit of force on the trolley (N) and of torque on the slew axis
@@ -85,6 +94,9 @@ struct CableTension {
   }
 };
 [[nodiscard]] CableTension cable_tension(const Parameters& parameters, const State& state) noexcept;
+/// @param level  sines and cosines of the angles of the cable in the slewing frame
+[[nodiscard]] CableTension cable_tension(const Parameters& parameters, const State& state,
+                                         const motion::Angles<double>& level) noexcept;
 
 /// State after an end stop has stopped `axis` in an inelastic impact. The impulse changes the rates of the
 /// other free coordinates f: M_ff dq'_f = -M_fs dq'_s with s the stopped coordinate.

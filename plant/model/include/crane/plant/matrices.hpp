@@ -22,6 +22,8 @@ namespace crane::plant {
 /// Velocity of the load relative to the ground, including the cable speed, in the slewing frame [m/s],
 /// (2.12).
 [[nodiscard]] Eigen::Vector3d load_velocity_mps(const Parameters& parameters, const State& state) noexcept;
+[[nodiscard]] Eigen::Vector3d load_velocity_mps(const Parameters& parameters, const State& state,
+                                                const motion::Angles<double>& level) noexcept;
 
 /// Linear model of one drive with its swing: d(state)/dt = a state + b volts, with the state (x, phi, x',
 /// phi') or (gamma, theta, gamma', theta').

@@ -31,6 +31,12 @@ struct Actuation {
       prescribed{};  ///< true: the acceleration of this inner coordinate is prescribed
 };
 
+/// The equations of motion of a model at one state, with the friction of its drives.
+struct ModelEquations {
+  MotionEquations motion;
+  InnerEquations inner{};
+};
+
 class Model {
  public:
   /// @param period_s  sampling period, during which a command is constant, > 0
@@ -74,6 +80,14 @@ class Model {
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation,
                                             const PerAxis& friction_v, const InnerState& inner,
                                             InnerAccelerations& inner_accelerations) const noexcept;
+  /// For an integrator that needs the accelerations of one state with several frictions: solution() gives the
+  /// accelerations of accelerations().
+  [[nodiscard]] ModelEquations equations(const State& state, const Actuation& actuation,
+                                         const PerAxis& friction_v, const InnerState& inner) const noexcept;
+  [[nodiscard]] Accelerations solution(const ModelEquations& equations, const Actuation& actuation,
+                                       InnerAccelerations& inner_accelerations) const noexcept;
+  /// Adds friction [V] of trolley and slew.
+  void add_friction(const PerAxis& friction_v, ModelEquations& equations) const noexcept;
   /// Accelerations of a model without inner coordinates, or with inner coordinates at rest at 0.
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation) const noexcept;
 
@@ -95,9 +109,9 @@ class Model {
   void add_structure(std::unique_ptr<Term> term);
   /// The state at the suspension point of the load.
   [[nodiscard]] State displaced(const State& state, const InnerState& inner) const noexcept;
-  /// Forces of drives, brakes and load terms.
-  [[nodiscard]] Forces forces(const State& seen, const Actuation& actuation,
-                              const PerAxis& friction_v) const noexcept;
+  /// Forces of drives, brakes and load terms. @param cable  as for Term::add_force()
+  [[nodiscard]] Forces forces(const State& seen, const motion::Angles<double>& cable,
+                              const Actuation& actuation, const PerAxis& friction_v) const noexcept;
   [[nodiscard]] double hoisting_mps2(const State& state, const Actuation& actuation,
                                      const PerAxis& friction_v) const noexcept;
 

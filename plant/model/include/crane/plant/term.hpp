@@ -75,8 +75,9 @@ class Term {
   /// Load terms, once per tick: draws the next value of a random force. The force is constant within a tick.
   virtual void begin_tick(double /*period_s*/) noexcept {}
   /// Load terms: adds generalised forces of the load.
+  /// @param cable  sines and cosines of the angles of the cable in the slewing frame
   virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
-                         Forces& /*sum*/) const noexcept {}
+                         const motion::Angles<double>& /*cable*/, Forces& /*sum*/) const noexcept {}
 
   /// Structure terms: number of inner coordinates; 0 when the parameters make the structure rigid. The
   /// arguments `inner` and `equations` below point to the inner coordinates of this term.
@@ -91,8 +92,9 @@ class Term {
   /// rates and accelerations.
   virtual void displace(const double* /*inner*/, Displacement& /*sum*/) const noexcept {}
   /// Adds generalised forces that depend on the inner coordinates, and computes the equations of motion of
-  /// the inner coordinates. @param equations  all coefficients are 0
-  virtual void add_inner_motion(const Parameters& /*crane*/, const State& /*state*/, const Inner* /*inner*/,
+  /// the inner coordinates. @param cable as for add_force() @param equations  all coefficients are 0
+  virtual void add_inner_motion(const Parameters& /*crane*/, const State& /*state*/,
+                                const motion::Angles<double>& /*cable*/, const Inner* /*inner*/,
                                 Forces& /*sum*/, InnerEquation* /*equations*/) const noexcept {}
 
   /// Corrects the inner coordinates between two samples of a measured motion.

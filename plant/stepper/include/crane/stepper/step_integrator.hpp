@@ -44,7 +44,8 @@ class StepIntegrator {
   void kick_inner(const plant::InnerAccelerations& accelerations);
   /// Advances the drives by one step. Friction acts implicitly, axis by axis, with the last friction of the
   /// other axis. @return mean friction, V
-  plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
+  plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle,
+                             const plant::ModelEquations& without_friction);
 
   const plant::Model& model_;
   std::array<bool, kOutputs> simulated_;
