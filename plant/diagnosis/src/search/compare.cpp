@@ -92,8 +92,8 @@ double held_out_loss_p_value(const Fitted& fitted, const Fitted& before, double 
   return chance_of(-2 * held_out_nats, fitted, before);
 }
 
-double wald_p_value(const Fitted& fitted) {
-  double most = 0;
+std::vector<double> wald_p_values(const Fitted& fitted) {
+  std::vector<double> all;
   std::size_t first = 0;
   for (const Effect& effect : fitted.effects) {
     double surest = 0;
@@ -102,9 +102,14 @@ double wald_p_value(const Fitted& fitted) {
       if (fitted.std_dev[first + k] > 0) surest = std::max(surest, distance / fitted.std_dev[first + k]);
     }
     first += effect.values.size();
-    most = std::max(most, std::erfc(surest / std::numbers::sqrt2));
+    all.push_back(std::erfc(surest / std::numbers::sqrt2));
   }
-  return most;
+  return all;
+}
+
+double wald_p_value(const Fitted& fitted) {
+  const std::vector<double> all = wald_p_values(fitted);
+  return all.empty() ? 0 : *std::ranges::max_element(all);
 }
 
 bool insignificant(double chance, std::size_t candidates) {
