@@ -1,6 +1,9 @@
 #include "crane/bring_up/session.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "crane/bridge/start_counts.hpp"
 #include "crane/plant/coordinates.hpp"
@@ -35,10 +38,7 @@ void Session::take(const bridge::Inputs& inputs) {
 }
 
 const Sample& Session::tick(const bridge::Outputs& outputs) {
-  if (clock_.interrupted()) {
-    board_.make_safe();
-    throw Ended("interrupted; 0 V, brakes closed");
-  }
+  if (clock_.interrupted()) end("interrupted");
   board_.write(outputs);
   clock_.wait(period_ns_);
   time_ns_ += period_ns_;
@@ -48,7 +48,7 @@ const Sample& Session::tick(const bridge::Outputs& outputs) {
 }
 
 const Sample& Session::rest() {
-  level_ = false;
+  level_ = relay_closed_ = false;
   return tick({});
 }
 
@@ -57,10 +57,19 @@ const Sample& Session::awake(const std::array<double, kDrives>& drive_v,
   level_ = !level_;
   bridge::Outputs outputs{drive_v, release, level_};
   for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= rig_.drives[i].sign;
+  const auto begin_ns = clock_.now_ns();
   tick(outputs);
-  if (!sample_.inputs.estop_pressed) return sample_;
+  const double passed_s = static_cast<double>(clock_.now_ns() - begin_ns) * 1e-9;
+  const bool opened = std::exchange(relay_closed_, !sample_.inputs.watchdog_dropped) && !relay_closed_;
+  if (sample_.inputs.estop_pressed) end("the emergency stop is pressed");
+  if (opened || passed_s > std::max(rig_.wiring.relay_timeout_s, 2 * rig_.period_s))
+    end("the watchdog relay has opened, because this program was suspended or the computer was too busy");
+  return sample_;
+}
+
+void Session::end(const std::string& why) {
   board_.make_safe();
-  throw Ended("the emergency stop is pressed; 0 V, brakes closed");
+  throw Ended(why + "; 0 V, brakes closed");
 }
 
 Record Session::watch(double duration_s) {

@@ -46,7 +46,10 @@ OpenBoard::OpenBoard(const BoardOptions& options)
   if (!emulated && !(options.wired_as.empty() && options.crane.empty()))
     throw configuration::ConfigurationError({rig_.path + ": board = " + rig_.board +
                                              ": --wired-as and --crane apply to the emulated board only"});
-  if (!emulated || !options.crane.empty()) clock_.wait = sleeping();
+  if (!emulated || !options.crane.empty()) {
+    clock_.wait = sleeping();
+    clock_.now_ns = runtime::monotonic_ns;
+  }
   board_ = opened(options);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,17 +31,18 @@ struct Sample {
 };
 using Record = std::vector<Sample>;
 
-/// The user has ended the session with Ctrl-C or the emergency stop.
+/// The session has ended: Ctrl-C, the emergency stop, or a program that was suspended. what() says why.
 class Ended : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Functions that wait for a tick and report an interruption.
+/// Functions that wait for a tick, report an interruption, and read a clock.
 struct Clock {
   std::function<void(std::int64_t duration_ns)> wait = [](std::int64_t) {
   };  ///< default for simulated time: no wait
   std::function<bool()> interrupted = [] { return false; };
+  std::function<std::int64_t()> now_ns = [] { return 0; };  ///< default: no tick is ever late
 };
 
 class Session {
@@ -53,7 +55,10 @@ class Session {
 
   /// Runs one tick at 0 V with closed brakes, without toggling the watchdog output. @throws Ended
   const Sample& rest();
-  /// Runs one tick and toggles the watchdog output. @throws Ended
+  /// Runs one tick and toggles the watchdog output. The relay opens and the brakes close when this program is
+  /// suspended for longer than relay_timeout_s of the rig file. The motion is then over: the next toggle
+  /// would release the brakes again.
+  /// @throws Ended, also when the relay has opened, or the tick lasted longer than relay_timeout_s
   /// @param drive_v  V; the session applies the sign of the drive in the rig file: a positive voltage moves
   ///   the axis outwards
   const Sample& awake(const std::array<double, kDrives>& drive_v, const std::array<bool, kDrives>& release);
@@ -69,6 +74,7 @@ class Session {
 
  private:
   const Sample& tick(const bridge::Outputs& outputs);
+  [[noreturn]] void end(const std::string& why);
   void take(const bridge::Inputs& inputs);
 
   const configuration::Rig& rig_;
@@ -77,6 +83,7 @@ class Session {
   std::int64_t period_ns_;
   std::int64_t time_ns_ = 0;
   bool level_ = false;
+  bool relay_closed_ = false;  ///< in the awake tick before; false after a tick at rest
   std::array<bridge::CountUnwrapper, kCounters> unwrapper_;
   Sample sample_;
 };
