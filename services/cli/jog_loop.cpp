@@ -28,6 +28,7 @@ JogLoop::JogLoop(bus::Bus& bus, OperatorStick& stick, const JogLoopOptions& opti
 
 void JogLoop::read() {
   moves_.receive();
+  if (moves_.take_interruption()) stop_point_.reset();
   stick_.read(seconds());
 }
 
@@ -114,7 +115,8 @@ void JogLoop::inch(const InchingStep& step) {
 
 void JogLoop::go_back() {
   if (!stop_point_ || !moves_.measured()) {
-    std::cerr << "return: no stop point yet: release the stick first\n";
+    std::cerr << "return: no stop point: a stop, or a motion of another client, removes it; release the "
+                 "stick first\n";
     return;
   }
   if (!execute("return", back_to(*stop_point_, *moves_.measured(), options_.selected))) return;

@@ -8,10 +8,15 @@ namespace crane::cli {
 JogMoves::JogMoves(bus::Bus& bus)
     : bus_{bus},
       follower_{bus},
+      statuses_{bus.subscriber(topics::supervisor)},
       states_{bus.subscriber(topics::state)},
       references_{bus.subscriber(topics::reference)} {}
 
 void JogMoves::receive() {
+  while (const auto status = statuses_.take()) {
+    const bool armed = status->state == crane_STATE_HOLD || status->state == crane_STATE_RUN;
+    interrupted_ = interrupted_ || !armed || status->move.client != client_name();
+  }
   std::optional<msg::State> state;
   if (bus::take_newest(states_, state)) measured_ = runtime::positions(*state);
   std::optional<msg::Reference> sample;

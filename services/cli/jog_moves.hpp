@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/inching.hpp"
 #include "cli/move_follower.hpp"
@@ -20,6 +21,10 @@ class JogMoves {
   [[nodiscard]] const std::optional<std::array<double, 3>>& measured() const { return measured_; }
   [[nodiscard]] const std::optional<std::array<double, 3>>& reference() const { return reference_; }
 
+  /// True once after the crane has left HOLD and RUN, or another client has moved it: the operator of this
+  /// program then no longer knows the way to an earlier position.
+  [[nodiscard]] bool take_interruption() { return std::exchange(interrupted_, false); }
+
   /// Requests a move and waits for its end. When the wait ends before the move, requests a stop, which locks
   /// the crane.
   /// @param what     prefix of all messages
@@ -36,9 +41,11 @@ class JogMoves {
 
   bus::Bus& bus_;
   MoveFollower follower_;
+  bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::State> states_;
   bus::Subscriber<msg::Reference> references_;
   std::optional<std::array<double, 3>> measured_, reference_;
+  bool interrupted_ = false;
 };
 
 }  // namespace crane::cli

@@ -35,7 +35,8 @@ void StickKeys::press(std::size_t axis, double share, double now_s) {
   if (!keys_move_) return;
   Key& key = key_[axis];
   const bool repeats = key.share == share && now_s <= key.until_s;
-  key = {share, now_s + (repeats ? kRepeat_s : kFirst_s)};
+  // A slow connection delays single repetitions: a step too few is better than a step too many.
+  key = {share, now_s + (repeats && !inching_ ? kRepeat_s : kFirst_s)};
   last_s_ = now_s;
   if (inching_ && !repeats) step_ = InchingStep{.axis = axis, .direction = share < 0 ? -1 : 1};
 }

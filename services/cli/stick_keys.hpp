@@ -46,7 +46,7 @@ class StickKeys {
   [[nodiscard]] bool inching() const { return inching_; }
 
   /// Takes the step that a key press requested while inching was on. A key that is held down requests one
-  /// step only.
+  /// step only; the same key requests the next step when it was released for kFirst_s.
   [[nodiscard]] std::optional<InchingStep> take_step() { return std::exchange(step_, std::nullopt); }
   /// True once after the key r. The key also releases the stick.
   [[nodiscard]] bool take_return() { return std::exchange(returns_, false); }

@@ -48,6 +48,10 @@ class RealtimeRuns {
   [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
                                 const experiment::Scenario& scenario);
 
+  /// After runs on a real crane: where the axes stand, if a drive whose position begins at `[start]` stands
+  /// elsewhere. The next program would measure from a wrong position. Empty: nothing to do.
+  [[nodiscard]] std::string difference_from_start(const configuration::Rig& rig) const;
+
  private:
   struct End {
     std::array<double, 3> position;  ///< trolley m, slew rad, cable length m

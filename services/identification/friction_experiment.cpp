@@ -3,11 +3,13 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "crane/configuration/extended_file.hpp"
 #include "crane/configuration/output_files.hpp"
 #include "crane/control/tracking_pd.hpp"
 #include "crane/files/complete_file.hpp"
+#include "crane/files/directory_lock.hpp"
 #include "crane/identification/excitation_design.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "experiments/realtime_run.hpp"
@@ -74,6 +76,7 @@ class Experiment {
     place();
     measure_loop();
     fs::create_directories(options.directory);
+    lock_.emplace(options.directory, files::IfLocked::fail);
     files::write_file(file(kUncompensated), uncompensated());
   }
 
@@ -91,6 +94,7 @@ class Experiment {
     const Steps uncompensated = run_steps(kStepsUncompensated, file(kUncompensated), result);
     result.compensated = id::deviation(compensated.measured, compensated.model);
     result.uncompensated = id::deviation(uncompensated.measured, uncompensated.model);
+    result.difference_from_start = realtime_runs_.difference_from_start(rig_);
     files::write_file(file(kResults), to_json(result).dump(2) + "\n");
     if (options_.picture)
       draw_friction(file(kPicture), result,
@@ -276,6 +280,8 @@ class Experiment {
   }
 
   const FrictionExperimentOptions& options_;
+  /// The processes of a run read rig files of this directory, which must not be those of another program.
+  std::optional<files::DirectoryLock> lock_;
   configuration::Rig rig_;
   experiments::RealtimeRuns realtime_runs_;
   id::ExcitationLimits limits_;

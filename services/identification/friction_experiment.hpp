@@ -49,6 +49,7 @@ struct FrictionExperimentResult {
   identification::Deviation uncompensated;  ///< deviation of the same steps without compensation
   double step = 0;                          ///< length of a step, m or rad
   std::filesystem::path fragment;           ///< identified.toml
+  std::string difference_from_start;        ///< as experiments::RealtimeRuns::difference_from_start()
 };
 
 /// @throws identification::IdentificationError when the run does not determine the friction or contradicts

@@ -25,6 +25,10 @@ class CraneAccess {
   /// @throws experiments::RunError, experiments::SessionError
   [[nodiscard]] virtual Motion execute(const configuration::Rig& rig,
                                        const experiment::Scenario& scenario) = 0;
+  /// As experiments::RealtimeRuns::difference_from_start(); empty for a simulated crane.
+  [[nodiscard]] virtual std::string difference_from_start(const configuration::Rig& /*rig*/) const {
+    return {};
+  }
 };
 
 }  // namespace crane::tuning

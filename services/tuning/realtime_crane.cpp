@@ -9,6 +9,7 @@ namespace crane::tuning {
 
 RealtimeCrane::RealtimeCrane(RealtimeOptions options)
     : directory_{std::move(options.directory)},
+      lock_{directory_, files::IfLocked::fail},
       runs_{{.plant = options.plant, .bus = std::move(options.bus), .vendors = std::move(options.vendors)}} {}
 
 Motion RealtimeCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {

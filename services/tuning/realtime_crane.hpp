@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "crane/files/directory_lock.hpp"
 #include "crane/runtime/process.hpp"
 #include "experiments/realtime_run.hpp"
 #include "stack/stack.hpp"
@@ -19,11 +20,16 @@ struct RealtimeOptions {
 
 class RealtimeCrane final : public CraneAccess {
  public:
+  /// @throws files::WriteError when another program uses the directory: the processes would read its rig file
   explicit RealtimeCrane(RealtimeOptions options);
   [[nodiscard]] Motion execute(const configuration::Rig& rig, const experiment::Scenario& scenario) override;
+  [[nodiscard]] std::string difference_from_start(const configuration::Rig& rig) const override {
+    return runs_.difference_from_start(rig);
+  }
 
  private:
   std::filesystem::path directory_;
+  files::DirectoryLock lock_;
   experiments::RealtimeRuns runs_;
 };
 

@@ -166,6 +166,19 @@ TEST_F(RecordingCommands, NeverOverwriteTheirRecording) {
   }
 }
 
+/// In a gap, the hook may have gone around the obstacle outside the box.
+TEST_F(RecordingCommands, LearnNoZoneFromARecordingWithAGap) {
+  ASSERT_EQ(crane({"log", "cut", run_, path("before.mcap"), "--to", "0.5"}).exit_code, 0);
+  ASSERT_EQ(crane({"log", "cut", run_, path("after.mcap"), "--from", "1"}).exit_code, 0);
+  ASSERT_EQ(crane({"log", "merge", path("before.mcap"), path("after.mcap"), path("gap.mcap")}).exit_code, 0);
+  const auto refused =
+      crane({"zone", "learn", "silo", path("gap.mcap"), "--top", "1", "--out", path("rig.toml")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.errors,
+              testing::ContainsRegex("no position of the hook between 0.(49|50) s and 1.0[01] s"));
+  EXPECT_FALSE(std::filesystem::exists(path("rig.toml")));
+}
+
 /// An earlier version wrote to FILE.partial.
 TEST_F(RecordingCommands, LeaveFilesBesideTheirResultUnchanged) {
   const auto before = contents_of(run_);

@@ -90,8 +90,16 @@ TEST(StickKeys, HeldDownWhileInchingAreOneStep) {
   double now_s = 1.5;  // the keyboard repeats after half a second
   for (int i = 0; i < 100; ++i, now_s += 0.03) keys.take("\x1b[A", now_s);
   EXPECT_EQ(keys.take_step(), std::nullopt);
-  keys.take("\x1b[A", now_s + StickKeys::kRepeat_s);
+  keys.take("\x1b[A", now_s + StickKeys::kFirst_s);
   EXPECT_NE(keys.take_step(), std::nullopt) << "the key was released in between";
+}
+
+TEST(StickKeys, HeldDownWhileInchingAreOneStepAlsoOnASlowConnection) {
+  StickKeys keys{false, true};
+  keys.take("\x1b[A", 1);
+  ASSERT_NE(keys.take_step(), std::nullopt);
+  for (double now_s = 1.5; now_s < 10; now_s += 0.4) keys.take("\x1b[A", now_s);
+  EXPECT_EQ(keys.take_step(), std::nullopt);
 }
 
 TEST(StickKeys, NeverMixStepsAndDeflections) {

@@ -1,5 +1,6 @@
 #include "crane/files/directory_lock.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,6 +29,13 @@ TEST(DirectoryLock, KeepsTheChangesOfBothPrograms) {
   add_lines();
   other.join();
   EXPECT_EQ(std::ranges::count(recording::contents_of(file), '\n'), 2 * kLines);
+}
+
+TEST(DirectoryLock, IsRefusedAtOnceWhenAnotherProgramHasIt) {
+  const recording::TemporaryDirectory directory;
+  const DirectoryLock first{directory / ""};
+  EXPECT_THAT([&] { const DirectoryLock second(directory / "", IfLocked::fail); },
+              testing::ThrowsMessage<WriteError>(testing::HasSubstr("another program writes into it")));
 }
 
 TEST(DirectoryLock, NamesADirectoryThatDoesNotExist) {

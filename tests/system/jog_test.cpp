@@ -85,6 +85,16 @@ class JogKeyboard : public testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return {stack::program_directory() / "crane", all, 120, 24};
   }
+  /// Holds the key of the slew axis until the axis moves.
+  [[nodiscard]] bool slews(TerminalRun& jog) {
+    return stack_.until(
+        [&] {
+          jog.type(kRight);
+          stack_.listen(30ms);
+          return std::abs(stack_.observer().states().back().slew_speed_radps) > 0.1;
+        },
+        10s);
+  }
   [[nodiscard]] const msg::State& state() {
     stack_.listen(50ms);
     return stack_.observer().states().back();
@@ -131,13 +141,7 @@ TEST_F(JogKeyboard, ReturnsToTheStopPoint) {
   constexpr double kDelay_rad = 0.03;  // 0.1 s between the key and this test's sample, at 0.3 rad/s
   auto jog = keyboard({});
   ASSERT_TRUE(jog.wait_for("full speed", 20s)) << jog.output();
-  ASSERT_TRUE(stack_.until(
-      [&] {
-        jog.type(kRight);
-        stack_.listen(30ms);
-        return std::abs(stack_.observer().states().back().slew_speed_radps) > 0.1;
-      },
-      10s));
+  ASSERT_TRUE(slews(jog));
   jog.type(" ");
   const auto released = state();
   ASSERT_TRUE(jog.wait_for("from the stop point", 20s)) << jog.output();
@@ -146,6 +150,19 @@ TEST_F(JogKeyboard, ReturnsToTheStopPoint) {
   ASSERT_TRUE(jog.wait_for("return: from the stop point", 30s)) << jog.output();
   EXPECT_NEAR(state().slew_angle_rad, released.slew_angle_rad, kBand + kDelay_rad);
   EXPECT_NEAR(state().trolley_position_m, released.trolley_position_m, kBand);
+  jog.type("q");
+  EXPECT_EQ(jog.wait(10s), 0);
+}
+
+TEST_F(JogKeyboard, ForgetsTheStopPointAfterAMotionOfAnotherClient) {
+  auto jog = keyboard({});
+  ASSERT_TRUE(jog.wait_for("full speed", 20s)) << jog.output();
+  ASSERT_TRUE(slews(jog));
+  jog.type(" ");
+  ASSERT_TRUE(jog.wait_for("from the stop point", 20s)) << jog.output();
+  stack_.session().move_to({true, false, false}, {0.6, 0, 0}, 30s);
+  jog.type("r");
+  EXPECT_TRUE(jog.wait_for("return: no stop point", 20s)) << jog.output();
   jog.type("q");
   EXPECT_EQ(jog.wait(10s), 0);
 }

@@ -132,6 +132,9 @@ TEST(RealtimeRuns, OnARealCraneBeginWhereTheRunBeforeHasEnded) {
   EXPECT_NEAR(trolley(there).back(), 0.6, 0.02);
   EXPECT_NEAR(trolley(stays).front(), trolley(there).back(), 0.005);
   EXPECT_NEAR(trolley(stays).back(), trolley(there).back(), 0.02);
+  const auto text = runs.difference_from_start(configuration::load_rig(rig));
+  EXPECT_THAT(text,
+              AllOf(testing::ContainsRegex("trolley at (0.59|0.6)"), testing::HasSubstr("([start] 0.3)")));
 }
 
 /// A program can be suspended between two runs. Another program can then move the crane and end.

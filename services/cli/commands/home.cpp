@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "cli/number_range.hpp"
 #include "cli/operator_request.hpp"
@@ -30,10 +31,15 @@ class Watch {
   /// @throws std::runtime_error after a stop signal, or when the supervisor has been silent for kSilent_ns
   bool until(double timeout_s,
              const std::function<bool(const msg::SupervisorStatus&, const msg::State&)>& holds) {
+    std::int64_t looked_ns = runtime::monotonic_ns();
     const bool reached = wait_until(bus_, timeout_s, [&] {
       const auto now_ns = runtime::monotonic_ns();
       if (bus::take_newest(statuses_, status_)) heard_ns_ = now_ns;
       bus::take_newest(states_, state_);
+      if (now_ns - std::exchange(looked_ns, now_ns) > kSilent_ns)
+        throw std::runtime_error(
+            "home: this program was suspended for more than 2 s: look at `crane status`, and repeat "
+            "`crane home`");
       if (status_ && now_ns - heard_ns_ > kSilent_ns)
         throw std::runtime_error(
             "home: no sample of crane/supervisor for 2 s: the stack has ended, or its host cannot be "

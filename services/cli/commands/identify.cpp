@@ -100,6 +100,7 @@ int identify_friction(IdentifyOptions options) {
   if (!options.from.empty()) return estimate_from(options, rig);
   experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
   const auto result = identification::identify_friction(experiment);
+  if (!result.difference_from_start.empty()) std::cerr << "warning: " << result.difference_from_start << '\n';
   if (options.json) {
     std::cout << identification::to_json(result).dump(2) << '\n';
     return runtime::kExitDone;

@@ -106,6 +106,8 @@ int run_each_in_realtime(const RunOptions& options, const std::vector<experiment
     std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
               << file.string() << '\n';
   }
+  if (const auto text = runs.difference_from_start(plans.back().rig); !text.empty())
+    std::cerr << "warning: " << text << '\n';
   return runtime::kExitDone;
 }
 

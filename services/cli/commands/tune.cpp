@@ -105,6 +105,8 @@ int run(const TuneCommand& command) {
   const auto result = tuning::tune(rig, *crane, options);
   if (terminal) std::cerr << "\r\033[K";
   for (const auto& difference : result.differences) std::cerr << "warning: " << difference << '\n';
+  if (const auto text = crane->difference_from_start(rig); !text.empty())
+    std::cerr << "warning: " << text << '\n';
   if (command.json)
     std::cout << tuning::to_json(result, rig).dump(2) << '\n';
   else
