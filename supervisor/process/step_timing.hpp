@@ -26,8 +26,8 @@ class StepTiming {
   /// Call when no tick is complete. After a pause of the computer, samples may have arrived that are not yet
   /// delivered. One pause must not count as several missing ticks; therefore the function extends the wait,
   /// once per step.
-  /// @param open  true: a state waits for its demand. The wait then lasts two periods longer, because the
-  ///   tick join normally ends it
+  /// @param open  true: a state waits for its demand. The wait then lasts two periods longer:
+  ///   normally the tick join finishes this tick first
   /// @return true when the supervisor steps now without a state
   bool is_silent(bool open, std::int64_t now_ns);
 

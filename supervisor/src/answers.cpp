@@ -11,7 +11,15 @@ constexpr std::array<const char*, kAxes> kNotHomed{
     "the position of the slewing jib is not known: reset, then `crane home --axis slew`",
     "the position of the hoist is not known: reset, then `crane home --axis hoist`"};
 
-constexpr std::array<const char*, kAxes> kUnclear{
+constexpr std::array<const char*, kAxes> kNoMark{
+    "the trolley has no homing mark: set zero = \"homing\" in [encoder.trolley] of the rig file and add "
+    "[homing.trolley]",
+    "the slewing jib has no homing mark: set zero = \"homing\" in [encoder.slew] of the rig file and add "
+    "[homing.slew]",
+    "the hoist has no homing mark: set zero = \"homing\" in [encoder.hoist] of the rig file and add "
+    "[homing.hoist]"};
+
+constexpr std::array<const char*, kAxes> kDoubtful{
     "the trolley was moving or at another position when the bridge ended: check that it is where `crane "
     "status` shows it, then `crane reset --confirm-positions`",
     "the slewing jib was moving or at another position when the bridge ended: check that it is where `crane "
@@ -50,10 +58,10 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
     return refuse(
         "the load swung when the bridge started: the zero of the swing encoders may be wrong; let the load "
         "hang at rest, then restart the bridge");
-  if (in.position_doubtful && enabled(reset_position_doubtful)) return refuse(kUnclear[in.doubtful_axis]);
+  if (in.position_doubtful && enabled(reset_position_doubtful)) return refuse(kDoubtful[in.doubtful_axis]);
   if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
   if (in.now_s - m.clear_since_s < limits.clear_time_s && enabled(reset_clear_time)) {
-    return refuse("the causes have been clear for less than a second: wait, then reset again");
+    return refuse("the last cause ended less than a second ago: wait, then reset again");
   }
   return kAccepted;
 }
@@ -77,7 +85,7 @@ Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
   if (in.gate_cause == Cause::demand_invalid) return refuse(remedy_for(Cause::demand_invalid));
   if (in.demand_stale) return refuse(remedy_for(Cause::demand_stale));
   if (in.now_s - m.fresh_since_s < limits.fresh_time_s && enabled(arm_fresh_time)) {
-    return refuse("state and demand have been complete for less than a second: wait, then arm again");
+    return refuse("state and demand have been fresh for less than a second: wait, then arm again");
   }
   return kAccepted;
 }
@@ -88,8 +96,7 @@ Answer answer_arm(const Limits& limits, const Inputs& in, const Memory& m) {
 }
 
 Answer answer_home(const Limits& limits, const Inputs& in, const Memory& m) {
-  if (!in.can_home)
-    return refuse("this axis has no mark: set zero = \"homing\" and add [homing] in the rig file");
+  if (!in.can_home) return refuse(kNoMark[in.home_axis]);
   if (m.homing) return refuse("an axis is being homed: wait for LOCKED");
   if (m.state == State::arming || m.state == State::hold || m.state == State::run)
     return refuse("the crane is armed: disarm and reset it first");

@@ -12,7 +12,7 @@ constexpr double kMargin = 1.1;  // longest search / travel of the axis: 10 % fo
 constexpr double kStill_s = 1;   // longest time without progress
 // Smallest distance that counts as progress / commanded distance: a drive breaks loose slowly.
 constexpr double kShareOfSpeed = 0.005;
-constexpr double kLongestBack = 4;     // longest distance away from the mark / back_off
+constexpr double kLongestLeg = 4;      // longest leg near the mark / back_off
 constexpr double kWrongDirection = 2;  // longest motion in the wrong direction (reversal) / back_off
 constexpr int kTicksToBeFound = 5;     // longest time from the active mark to its report by the bridge
 
@@ -25,7 +25,7 @@ struct Leg {
 Leg leg_of(const AxisLimits& axis, HomingPhase phase) {
   const auto& homing = axis.homing;
   const double travel = kMargin * (axis.high_limit - axis.low_limit);
-  const double back = kLongestBack * homing.back_off;
+  const double back = kLongestLeg * homing.back_off;
   const double to_mark = homing.direction();
   switch (phase) {
     case HomingPhase::leave_at_first:
@@ -91,7 +91,7 @@ HomingFailure failure_of(const Limits& limits, const AxisLimits& axis, const Leg
     m.still_ticks = 0;
   }
   const bool still = ++m.still_ticks * limits.period_s > kStill_s;
-  const double back = kLongestBack * axis.homing.back_off;
+  const double back = kLongestLeg * axis.homing.back_off;
   if (in.mark_active && in.other_switch && axis.homing.mark != Mark::input) return HomingFailure::mark_stuck;
   if (in.other_switch && (m.other_left || moved > back)) return HomingFailure::other_switch;
   if (moved > leg.longest) return leg.too_long;

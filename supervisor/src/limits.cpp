@@ -26,10 +26,7 @@ class Problems {
   void positive(const std::string& name, double value) {
     require(value > 0 && std::isfinite(value), name, value, "must be > 0");
   }
-  void at_least(const std::string& name, double value, double low) {
-    require(value >= low && std::isfinite(value), name, value,
-            "must be >= " + std::to_string(static_cast<int>(low)));
-  }
+  void at_least(const std::string& name, double value, double low) { in_range(name, value, {.low = low}); }
   [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::vector<std::string> take() { return std::move(found_); }
 
@@ -69,7 +66,7 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.at_least("overruns_in_row", limits.overruns_in_row, 0);
   problems.at_least("clear_time_s", limits.clear_time_s, 0);
   problems.at_least("fresh_time_s", limits.fresh_time_s, 0);
-  problems.at_least("take_up_time_s", limits.take_up_time_s, 0);
+  problems.at_least("longest_wait_for_motion_s", limits.longest_wait_for_motion_s, 0);
   problems.positive("load_still_rad", limits.load_still_rad);
   problems.at_least("load_watch_s", limits.load_watch_s, limits.clear_time_s);
   problems.positive("standstill_time_s", limits.standstill_time_s);

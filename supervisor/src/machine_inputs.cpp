@@ -13,10 +13,10 @@ AxisFlags unknown_axes(const Limits& limits, const TickMemory& memory) {
   return unknown;
 }
 
-AxisFlags unclear_axes(const TickInput& input, const TickMemory& memory) {
-  AxisFlags unclear{};
-  for (std::size_t i = 0; i < kAxes; ++i) unclear[i] = memory.restart.doubted[i] && !input.confirmed[i];
-  return unclear;
+AxisFlags doubtful_axes(const TickInput& input, const TickMemory& memory) {
+  AxisFlags doubtful{};
+  for (std::size_t i = 0; i < kAxes; ++i) doubtful[i] = memory.restart.doubtful[i] && !input.confirmed[i];
+  return doubtful;
 }
 
 /// @return index of the first set flag; kAxes: none
@@ -70,7 +70,7 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks
                       const TickMemory& memory) {
   const Sample& sample = memory.sample;
   const std::size_t unhomed = first_of(unknown_axes(limits, memory));
-  const std::size_t unclear = first_of(unclear_axes(input, memory));
+  const std::size_t doubtful = first_of(doubtful_axes(input, memory));
   return {
       .now_s = input.now_s,
       .self_test = input.self_test,
@@ -90,8 +90,8 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks
       .configuration_differs = input.configuration_differs,
       .foreign_command = input.foreign_command,
       .bridge_restarted = input.bridge_restarted,
-      .position_doubtful = (unclear < kAxes),
-      .doubtful_axis = unclear % kAxes,
+      .position_doubtful = (doubtful < kAxes),
+      .doubtful_axis = doubtful % kAxes,
       .swing_zero_doubtful = memory.restart.swing_zero_doubtful,
       .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
       .brake_did_not_close = checks.brake_did_not_close || input.brake_open_without_command,
@@ -106,6 +106,7 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks
       .reference_moving = input.reference_moving,
       .not_homed = unhomed < kAxes,
       .unhomed_axis = unhomed % kAxes,
+      .home_axis = input.home_axis,
       .can_home = limits.axis[input.home_axis].homes(),
       .homed = memory.machine.homing && memory.homing.phase == HomingPhase::done,
       .homing_failure = memory.machine.homing ? memory.homing.failure : HomingFailure::none,

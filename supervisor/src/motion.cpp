@@ -49,7 +49,7 @@ bool brake_did_not_close(const Limits& limits, double now_s, const MotionMemory&
   for (std::size_t i = 0; i < kAxes; ++i) {
     const AxisLimits& axis = limits.axis[i];
     if (!axis.present) continue;
-    // Twice the braking distance: the axis may have accelerated when the brakes were commanded closed.
+    // Twice the stopping distance: the axis may have accelerated when the brakes were commanded closed.
     const double allowed = 2 * stopping_distance(limits, i, memory.speed[i]) + axis.brake_slip;
     const bool slipped = std::abs(motion.position[i] - memory.position[i]) > allowed;
     const double report_s = limits.period_s + axis.brake_close_time_s + limits.brake_report_time_s;

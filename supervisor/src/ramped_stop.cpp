@@ -14,8 +14,8 @@ using plant::kTrolley;
 double square(double x) noexcept { return x * x; }
 double length(const Plane& a) noexcept { return std::hypot(a[0], a[1]); }
 
-/// Integral over time of the voltages of the previous, the present and the next tick, V s, in one direction
-/// (+1 or -1).
+/// Integral of the voltage over time in one direction (+1 or -1), V s: half of the previous tick, the present
+/// tick, and the next tick once more for each missing state (docs/zones.md, step 1).
 double impulse_vs(const Limits& limits, std::size_t axis, double direction, const ZoneInput& input,
                   const ZoneMemory& memory) noexcept {
   const auto push = [direction](double v) { return std::max(direction * v, 0.0); };

@@ -15,7 +15,7 @@ void take_over(const Limits& limits, double now_s, const MotionMemory& before, c
     const bool rested = before.arrived_s - before.window_since_s[i] >= limits.standstill_time_s;
     const bool there =
         position != nullptr && std::abs((*position)[i] - before.position[i]) <= limits.axis[i].brake_slip;
-    if (!known[i] || !rested || !there) memory.doubted[i] = true;
+    if (!known[i] || !rested || !there) memory.doubtful[i] = true;
   }
 }
 

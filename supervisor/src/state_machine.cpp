@@ -113,15 +113,15 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   if (m.state != State::run) return;
   m.move_began = m.move_began || in.reference_moving;
   // In the process, OperatorRequests::is_moving() ends a move that the planner does not begin earlier.
-  const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.take_up_time_s;
+  const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.longest_wait_for_motion_s;
   if ((m.move_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
     m.idle_since_s = in.now_s;
   }
 }
 
-/// A stop of the operator during or after a routine stop becomes its cause: a program that would reset the
-/// routine stop sees that the crane must stay.
+/// The request `stop` replaces a routine cause by OPERATOR_STOP, so that no program resets the stop by
+/// itself.
 void note_operator_stop(const Inputs& in, Memory& m) {
   if (requested(in, Request::stop) && is_routine(m.cause)) m.cause = Cause::operator_stop;
 }

@@ -155,7 +155,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
     memory.homing = {};
     memory.homing_axis = input.home_axis;
   }
-  if (decided.answers[static_cast<std::size_t>(Request::reset)].accepted) memory.restart.doubted = {};
+  if (decided.answers[static_cast<std::size_t>(Request::reset)].accepted) memory.restart.doubtful = {};
   if (decided.state == State::ready) memory.restart.watching = false;
   if (decided.brake_release && !was_releasing) memory.release_position = memory.motion.position;
 

@@ -49,7 +49,7 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
   memory.sample = input.sample;
   observe(limits, input.now_s, input.sample.time_s, input.sample.position, memory.motion);
   for (std::size_t i = 0; i < kAxes; ++i)  // homing ends the doubt about a position
-    if (memory.sample.position_unknown[i]) memory.restart.doubted[i] = false;
+    if (memory.sample.position_unknown[i]) memory.restart.doubtful[i] = false;
   watch_load(limits, input.now_s, memory.sample.swing_radial_rad, memory.sample.swing_tangential_rad,
              memory.restart);
   return true;

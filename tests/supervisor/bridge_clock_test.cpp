@@ -45,7 +45,7 @@ TEST_F(TimesOfTheBridge, FitWithAnyLatenessAndAnyNumberOfSkippedTicks) {
   }
 }
 
-TEST_F(TimesOfTheBridge, ThatStandStillOrJumpContradict) {
+TEST_F(TimesOfTheBridge, ThatStandStillOrJumpContradictTheTicks) {
   for (const std::int64_t time_ns :
        {stamped(10).sample_time_ns, std::int64_t{0}, std::int64_t{-1}, kLatest_ns,
         std::numeric_limits<std::int64_t>::min(), stamped(11, 2 * kTick_ns).sample_time_ns,
@@ -56,7 +56,7 @@ TEST_F(TimesOfTheBridge, ThatStandStillOrJumpContradict) {
 
 /// Each step between samples deviates from a period by less than a period; the sum of the steps deviates by
 /// more.
-TEST_F(TimesOfTheBridge, ThatRunTooFastOrTooSlowlyContradict) {
+TEST_F(TimesOfTheBridge, ThatRunTooFastOrTooSlowlyContradictTheTicks) {
   for (const std::int64_t step_ns : {kTick_ns / 2, kTick_ns * 19 / 10, kTick_ns + kTick_ns / 100}) {
     BridgeClock clock{kTick_ns};
     std::uint64_t tick = 0;
@@ -66,7 +66,7 @@ TEST_F(TimesOfTheBridge, ThatRunTooFastOrTooSlowlyContradict) {
   }
 }
 
-TEST_F(TimesOfTheBridge, ThatContradictDoNotChangeTheClock) {
+TEST_F(TimesOfTheBridge, ThatContradictTheTicksDoNotChangeTheClock) {
   EXPECT_EQ(clock_.local_ns(stamped(10).sample_time_ns, 500), 500);
   EXPECT_EQ(clock_.take(with_time(11, kLatest_ns)), contradicts);
   EXPECT_FALSE(clock_.fits(with_time(12, kLatest_ns)));

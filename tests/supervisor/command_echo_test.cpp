@@ -99,7 +99,7 @@ TEST_F(Echo, IgnoresTheBrakesOfAbsentDrives) {
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(echo.contradicts(state));
 }
 
-TEST_F(Echo, AcceptsAnyCommandOfATickThatWasCommandedTwice) {
+TEST_F(Echo, AcceptsEachCommandOfATickWithTwoCommands) {
   command(4, true);
   msg::Command again{};
   again.header.tick = tick_;

@@ -108,7 +108,7 @@ const char* broken_promise(const Memory& before, const Inputs& in, const Memory&
   }
   if (accepted(Request::reset) && before.state != State::ready &&
       (in.position_doubtful || in.swing_zero_doubtful))
-    return "nothing is reset while a place is unclear";
+    return "nothing is reset while a position or the swing zero is doubtful";
   if (accepted(Request::arm) && is != State::arming) return "an accepted arm leads to ARMING";
   if (accepted(Request::home) && !(is == State::arming && after.homing))
     return "an accepted homing leads to ARMING for it";

@@ -103,7 +103,7 @@ TEST(Gate, UninterruptedRateLimitingStopsTheCrane) {
   }
 }
 
-TEST(Gate, ASlowRateLimitLetsAFullReversalThrough) {
+TEST(Gate, PassesAFullReversalWithALowRateLimit) {
   Limits limits = test_limits();
   limits.axis[0].volt_rate_limit_vps = 100;  // 1 V per tick
   GateMemory memory;

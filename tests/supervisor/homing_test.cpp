@@ -27,9 +27,9 @@ Limits homing_limits() {
 
 /// A trolley that follows the creeping reference, its limit switches, and a bridge that knows the position
 /// after two detections of the mark and the closing of the brake.
-class Crane : public Timeline {
+class HomingTimeline : public Timeline {
  public:
-  explicit Crane(double from_m = 0.3) : Timeline{homing_limits()}, true_m{from_m} {
+  explicit HomingTimeline(double from_m = 0.3) : Timeline{homing_limits()}, true_m{from_m} {
     world.sample.position[0] = 1.4;
     world.sample.position_unknown[0] = true;
   }
@@ -37,14 +37,14 @@ class Crane : public Timeline {
   double true_m, follows = 1;
   bool stuck_closed = false, never_closes = false, bridge_agrees = true, mirrored = false;
 
-  void live(double seconds) {
-    for (int i = 0; i < std::lround(seconds / limits.period_s); ++i) live_a_tick();
+  void run_with_motion(double seconds) {
+    for (int i = 0; i < std::lround(seconds / limits.period_s); ++i) run_a_tick();
   }
   /// @return seconds until the crane was stopped, at most `longest_s`
-  double live_until_stopped(double longest_s = 60) {
+  double run_until_stopped(double longest_s = 60) {
     for (double passed_s = 0; passed_s < longest_s; passed_s += limits.period_s) {
       if (state() >= State::stop_c1 || state() == State::locked) return passed_s;
-      live_a_tick();
+      run_a_tick();
     }
     return longest_s;
   }
@@ -56,22 +56,22 @@ class Crane : public Timeline {
     to_ready();
     run(0.1);
     EXPECT_TRUE(home().accepted);
-    for (int i = 0; i < 50 && state() == State::arming; ++i) live(limits.period_s);
+    for (int i = 0; i < 50 && state() == State::arming; ++i) run_with_motion(limits.period_s);
     EXPECT_EQ(state(), State::run);
   }
   [[nodiscard]] bool known() const { return !world.sample.position_unknown[0]; }
-  [[nodiscard]] int sights() const { return sights_; }
+  [[nodiscard]] int mark_detections() const { return mark_detections_; }
 
  private:
-  void live_a_tick() {
+  void run_a_tick() {
     Sample& sample = world.sample;
     speed[0] = follows * out.homing_speed[0];
     if (!sample.brake_closed[0]) true_m += (mirrored ? -speed[0] : speed[0]) * limits.period_s;
     const bool closed = stuck_closed || (!never_closes && true_m <= kMark_m);
-    sights_ += closed && !sample.mark_active[0] ? 1 : 0;
+    mark_detections_ += closed && !sample.mark_active[0] ? 1 : 0;
     sample.mark_active[0] = sample.limit_low[0] = closed;
     sample.limit_high[0] = true_m >= 1.4;
-    sample.mark_found[0] = bridge_agrees && sights_ >= 2 && sample.position_unknown[0];
+    sample.mark_found[0] = bridge_agrees && mark_detections_ >= 2 && sample.position_unknown[0];
     if (out.homing[0] && !was_homing_) sample.position_unknown[0] = true;
     was_homing_ = out.homing[0];
     if (out.homing[0] && sample.mark_found[0] && sample.brake_closed[0] && !closed) {
@@ -83,7 +83,7 @@ class Crane : public Timeline {
     EXPECT_EQ(out.drive_v[1], 0);
     EXPECT_LE(std::abs(out.drive_v[0]), limits.axis[0].homing.volt_limit_v);
   }
-  int sights_ = 0;
+  int mark_detections_ = 0;
   bool was_homing_ = false;
 };
 
@@ -97,7 +97,7 @@ TEST(HomingLimits, AreCheckedWithTheOthers) {
 }
 
 TEST(Homing, WithAnUnknownPositionArmingAndMovingAreRefusedWithTheRemedy) {  // S21
-  Crane t;
+  HomingTimeline t;
   t.to_ready();
   t.run(0.1);
   for (const Answer& answer : {t.arm(), t.move()}) {
@@ -109,11 +109,13 @@ TEST(Homing, WithAnUnknownPositionArmingAndMovingAreRefusedWithTheRemedy) {  // 
 }
 
 TEST(Homing, OfAnAxisWithoutAMarkOrOfAnArmedCraneIsRefused) {
-  Crane t;
+  HomingTimeline t;
   t.to_locked();
   EXPECT_FALSE(t.home().accepted) << "reset first";
   t.reset();
-  EXPECT_FALSE(t.home(1).accepted);
+  const Answer of_slew = t.home(1);
+  EXPECT_FALSE(of_slew.accepted);
+  EXPECT_NE(std::string_view{of_slew.reason}.find("[homing.slew]"), std::string_view::npos) << of_slew.reason;
   t.world.sample.position_unknown[0] = false;
   t.run(0.2);
   t.arm();
@@ -126,16 +128,16 @@ TEST(Homing, OfAnAxisWithoutAMarkOrOfAnArmedCraneIsRefused) {
 TEST(Homing, FindsTheMarkTwiceAndEndsLockedWithAKnownPosition) {  // S22
   for (const double from_m :
        {0.3, 0.105, 0.08, 1.4}) {  // the third run starts at the mark, the last run at the other switch
-    Crane t{from_m};
+    HomingTimeline t{from_m};
     t.to_homing();
-    t.demand(9);  // the gate limits the voltage to volt_limit_v of homing
-    t.live_until_stopped();
+    t.demand(9);  // limited to volt_limit_v of [homing]
+    t.run_until_stopped();
     EXPECT_EQ(t.cause(), Cause::homed) << from_m;
-    t.live(0.5);
+    t.run_with_motion(0.5);
     EXPECT_EQ(t.state(), State::locked) << name_of(t.cause());
     EXPECT_TRUE(t.safe());
     EXPECT_TRUE(t.known());
-    EXPECT_EQ(t.sights(), from_m < kMark_m ? 3 : 2);
+    EXPECT_EQ(t.mark_detections(), from_m < kMark_m ? 3 : 2);
     EXPECT_NEAR(t.true_m, kMark_m + 0.02, 0.005) << "off the mark";
     t.demand(0);
     t.run(1.1);
@@ -148,11 +150,11 @@ TEST(Homing, FindsTheMarkTwiceAndEndsLockedWithAKnownPosition) {  // S22
 }
 
 TEST(Homing, CreepsBackAndApproachesSlowly) {
-  Crane t;
+  HomingTimeline t;
   t.to_homing();
   std::vector<double> speeds;
   while (t.state() == State::run) {
-    t.live(0.01);
+    t.run_with_motion(0.01);
     const double speed = t.out.homing_speed[0];
     if (speed != 0 && (speeds.empty() || speeds.back() != speed)) speeds.push_back(speed);
   }
@@ -161,7 +163,7 @@ TEST(Homing, CreepsBackAndApproachesSlowly) {
 
 struct Failure {
   const char* name;
-  std::function<void(Crane&)> begin;
+  std::function<void(HomingTimeline&)> begin;
   HomingFailure expected;
   double longest_s;
   double from_m = 0.3;
@@ -172,16 +174,16 @@ class HomingFails : public ::testing::TestWithParam<Failure> {};
 
 TEST_P(HomingFails, RemovesPowerAndReportsItsReasonAndAnUnknownPosition) {  // S23
   const auto& failure = GetParam();
-  Crane t{failure.from_m};
+  HomingTimeline t{failure.from_m};
   failure.begin(t);
   t.to_homing();
-  EXPECT_LE(t.live_until_stopped(), failure.longest_s);
+  EXPECT_LE(t.run_until_stopped(), failure.longest_s);
   EXPECT_EQ(t.state(), State::stop_c0);
   EXPECT_EQ(t.cause(), Cause::homing_failed);
   EXPECT_EQ(t.out.homing_failure, failure.expected) << name_of(t.out.homing_failure);
   EXPECT_STRNE(remedy_for(t.out.homing_failure), "");
   EXPECT_TRUE(t.safe());
-  t.live(1.5);
+  t.run_with_motion(1.5);
   EXPECT_EQ(t.state(), State::locked);
   EXPECT_FALSE(t.known());
   t.reset();
@@ -192,22 +194,24 @@ TEST_P(HomingFails, RemovesPowerAndReportsItsReasonAndAnUnknownPosition) {  // S
 INSTANTIATE_TEST_SUITE_P(
     Each, HomingFails,
     ::testing::Values(
-        Failure{"TheSwitchNeverCloses", [](Crane& c) { c.never_closes = true; },
+        Failure{"TheSwitchNeverCloses", [](HomingTimeline& c) { c.never_closes = true; },
                 HomingFailure::mark_not_found, 30},
-        Failure{"TheSwitchIsStuckClosed", [](Crane& c) { c.stuck_closed = true; }, HomingFailure::mark_stuck,
-                2},
+        Failure{"TheSwitchIsStuckClosed", [](HomingTimeline& c) { c.stuck_closed = true; },
+                HomingFailure::mark_stuck, 2},
         Failure{"BothSwitchesAreClosed",
-                [](Crane& c) {
+                [](HomingTimeline& c) {
                   c.stuck_closed = true;
                   c.true_m = 1.4;
                 },
                 HomingFailure::mark_stuck, 0.1},
         // Wrong signs of drive and encoder: the loop is stable, and the axis moves in the other direction.
-        Failure{"TheOtherSwitchIsReached", [](Crane& c) { c.mirrored = true; }, HomingFailure::other_switch,
-                3, 1.35},
-        Failure{"TheAxisDoesNotFollow", [](Crane& c) { c.follows = 0; }, HomingFailure::no_motion, 2},
-        Failure{"TheAxisGoesTheWrongWay", [](Crane& c) { c.follows = -0.2; }, HomingFailure::no_motion, 5},
-        Failure{"TheBridgeSawTwoPlaces", [](Crane& c) { c.bridge_agrees = false; },
+        Failure{"TheOtherSwitchIsReached", [](HomingTimeline& c) { c.mirrored = true; },
+                HomingFailure::other_switch, 3, 1.35},
+        Failure{"TheAxisDoesNotFollow", [](HomingTimeline& c) { c.follows = 0; }, HomingFailure::no_motion,
+                2},
+        Failure{"TheAxisGoesTheWrongWay", [](HomingTimeline& c) { c.follows = -0.2; },
+                HomingFailure::no_motion, 5},
+        Failure{"TheBridgeFindsTwoPositions", [](HomingTimeline& c) { c.bridge_agrees = false; },
                 HomingFailure::mark_disagrees, 30}),
     [](const auto& test) { return std::string{test.param.name}; });
 
@@ -216,11 +220,11 @@ TEST(Homing, InterruptedByAStopOrTheEmergencyStopLeavesThePositionUnknown) {
                                                      {Request::disarm, Cause::operator_disarm},
                                                      {Request::estop, Cause::operator_estop}};
   for (const auto& [request, cause] : interruptions) {
-    Crane t;
+    HomingTimeline t;
     t.to_homing();
-    t.live(1);
+    t.run_with_motion(1);
     t.ask(request);
-    t.live(2);
+    t.run_with_motion(2);
     EXPECT_EQ(t.cause(), cause);
     EXPECT_TRUE(t.safe());
     EXPECT_FALSE(t.known());
@@ -229,16 +233,16 @@ TEST(Homing, InterruptedByAStopOrTheEmergencyStopLeavesThePositionUnknown) {
 }
 
 TEST(Homing, AnAxisThatDoesNotCreepIsStopped) {
-  Crane t;
+  HomingTimeline t;
   t.to_homing();
   t.follows = 3;
-  t.live(0.03);
+  t.run_with_motion(0.03);
   EXPECT_EQ(t.state(), State::stop_c0);
   EXPECT_EQ(t.cause(), Cause::overspeed);
 }
 
 TEST(Homing, MovingWhileAnAxisIsHomedIsRefused) {
-  Crane t;
+  HomingTimeline t;
   t.to_homing();
   EXPECT_FALSE(t.ask(Request::move).accepted);
   EXPECT_FALSE(t.arm().accepted);

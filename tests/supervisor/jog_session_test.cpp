@@ -198,14 +198,14 @@ class FaultyStick : public Jog {
   }
 };
 
-TEST_F(FaultyStick, ThatWasSilentHasToBeReleasedFirst) { expect_released_until_the_operator_releases(111); }
+TEST_F(FaultyStick, AfterASilenceHasToBeReleasedFirst) { expect_released_until_the_operator_releases(111); }
 
-TEST_F(FaultyStick, ThatWasSilentHasToBeReleasedFirstAlsoWhenALateSampleBreaksTheSilence) {
+TEST_F(FaultyStick, AfterASilenceThatALateSampleEndsHasToBeReleasedFirst) {
   take(sample(100), kOperator, 120);
   expect_released_until_the_operator_releases(121);
 }
 
-TEST_F(FaultyStick, ThatWasSilentHasToBeReleasedFirstAlsoWhenAnEarlySampleBreaksTheSilence) {
+TEST_F(FaultyStick, AfterASilenceThatAnEarlySampleEndsHasToBeReleasedFirst) {
   take(sample(500), kOperator, 120);
   expect_released_until_the_operator_releases(121);
 }

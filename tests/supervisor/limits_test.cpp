@@ -48,6 +48,13 @@ TEST(SupervisorLimits, ReportEveryProblemAtOnceWithNameValueAndRule) {
                           HasSubstr("slew.soft_margin")));
 }
 
+TEST(SupervisorLimits, ReportABoundThatIsNoInteger) {
+  Limits limits = test_limits();
+  limits.clear_time_s = 0.5;
+  limits.load_watch_s = 0.2;
+  EXPECT_THAT(problems(limits), ElementsAre("load_watch_s = 0.2: must be finite and >= 0.5"));
+}
+
 TEST(SupervisorLimits, NeedAtLeastOneAxisAndIgnoreAbsentOnes) {
   EXPECT_THAT(problems(Limits{}), ElementsAre(HasSubstr("at least one must be present")));
   Limits limits = test_limits();

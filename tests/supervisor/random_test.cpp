@@ -106,7 +106,7 @@ TEST_P(RandomHistory, NeverMovesWithoutResetAndArmNorBeyondTheVoltLimits) {  // 
     Random random{seed};
     Timeline t;
     t.limits.axis[0].volt_rate_limit_vps = 400;
-    t.limits.clear_time_s = t.limits.fresh_time_s = t.limits.take_up_time_s = 0.2;
+    t.limits.clear_time_s = t.limits.fresh_time_s = t.limits.longest_wait_for_motion_s = 0.2;
     Observer observer;
     for (int i = 0; i < kTicks; ++i) {
       disturb(random, {.fault = GetParam()}, t);

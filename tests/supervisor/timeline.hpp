@@ -103,7 +103,7 @@ class Timeline {
   void demand(double volts) { world.demand_v = {volts, volts, 0}; }
 
  private:
-  // Brakes and relay follow two ticks after the command: one tick of delay, then 20 ms to close or open.
+  // Brakes and relay follow three ticks after the command: one tick of delay, then 20 ms to close or open.
   void obey(const TickOutput& command) {
     delayed_.push_back(command);
     if (delayed_.size() < 3) {

@@ -35,7 +35,7 @@ async function arm() {
   await ask("reset");
   await until("READY", async () => (await state()) === "READY");
   await until("armed", async () => {
-    // Refused until the streams are complete for a second. The button waits for the answer; a click does not wait for the button.
+    // Refused until state and demand have been fresh for a second. The button waits for the answer; a click does not wait for the button.
     await page.evaluate(() => document.querySelector("#ask-arm").click());
     return (await state()) === "HOLD";
   });

@@ -1,7 +1,8 @@
 #pragma once
 /// Homing of an axis: a sequence of slow motions during which the bridge finds the position of the axis. Each
-/// tick returns the speed of the reference; planner, control laws and gate process this reference as in every
-/// move. The bridge detects the mark (crane/bridge/homing.hpp).
+/// tick returns the speed of the reference; the planner integrates this speed, and the tracking law follows.
+/// The demand is limited to volt_limit_v of [homing]; model checks and zones have no effect. The bridge
+/// detects the mark (crane/bridge/homing.hpp).
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {

@@ -53,9 +53,11 @@ struct Limits : control::OperatingLimits {
   int demand_invalid_in_row = 3;      ///< consecutive rejected demands that stop the crane, >= 1
   /// consecutive late ticks that stop the crane; 0: late ticks do not stop the crane
   int overruns_in_row = 3;
-  double clear_time_s = 1;         ///< time without a cause before a reset, >= 0
-  double fresh_time_s = 1;         ///< time with fresh state and demand before arming, >= 0
-  double take_up_time_s = 1;       ///< longest time in RUN until Inputs::reference_moving becomes true, >= 0
+  double clear_time_s = 1;  ///< time without a cause before a reset, >= 0
+  double fresh_time_s = 1;  ///< time with fresh state and demand before arming, >= 0
+  /// longest time in RUN until Inputs::reference_moving becomes true, >= 0. The process ends a move earlier,
+  /// 0.2 s after its acceptance (OperatorRequests)
+  double longest_wait_for_motion_s = 1;
   double standstill_time_s = 0.1;  ///< time near one position that counts as standstill, > 0
   double c1_ramp_time_s = 0.02;    ///< duration of the ramp from full voltage to 0 V, in [0, 0.02]
   double stop_timeout_s = 8;       ///< longest controlled stop; a ramped stop follows, > 0

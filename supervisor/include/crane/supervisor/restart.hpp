@@ -7,7 +7,7 @@
 namespace crane::supervisor {
 
 struct RestartMemory {
-  AxisFlags doubted{};               ///< true: the measured position of the axis may be wrong
+  AxisFlags doubtful{};              ///< true: the measured position of the axis may be wrong
   bool swing_zero_doubtful = false;  ///< true: the measured swing angles may be wrong
   bool watching = false;             ///< true: watch_load() checks the swing
   double since_s = 0;                ///< time of the last restart

@@ -9,7 +9,7 @@ namespace crane::supervisor {
 /// Self-test of the board at the start (process/board_self_test.hpp).
 enum class SelfTest : std::uint8_t {
   not_started,  ///< until the first step of the supervisor
-  running,      ///< passes after ten safe states in a row, fails after 2 s without ten safe states in a row
+  running,      ///< the board must show 0 V, closed brakes and open relay in ten states in a row within 2 s
   passed,       ///< until the bridge restarts
   failed        ///< leads to FAULT, which only a restart of the supervisor ends
 };
@@ -18,44 +18,44 @@ enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home 
 inline constexpr std::size_t kRequests = 7;
 using Requests = std::array<bool, kRequests>;  ///< indexed by Request; true: requested in this tick
 
-/// Inputs of one tick. Flags: false = healthy; where a comment begins with "true:", the comment states the
-/// meaning.
+/// Inputs of one tick.
 struct Inputs {
   double now_s = 0;  ///< s, clock of the supervisor (TickInput::now_s)
   SelfTest self_test = SelfTest::not_started;
-  bool state_stale = false;
-  bool demand_stale = false;
+  bool state_stale = false;        ///< true: too many states in a row are missing
+  bool demand_stale = false;       ///< true: too many ticks in a row have no usable demand
   Cause gate_cause = Cause::none;  ///< none, demand_stale, demand_invalid, demand_rate
   EnvelopeInput measured{};        ///< for rules that compare a measured value with a limit
   Envelope envelope{};
-  bool following_error = false;      ///< see following.hpp
-  bool swing_sensor_failed = false;  ///< see pendulum.hpp
-  bool zone_ahead = false;           ///< see zone_filter.hpp
-  bool zone_touched = false;         ///< see zone_filter.hpp
-  bool estop_pressed = false;
-  bool bridge_latched = false;    ///< the bridge holds 0 V and closed brakes by itself
-  bool watchdog_dropped = false;  ///< the relay has removed the brake supply
-  bool second_writer = false;
-  bool configuration_differs = false;  ///< processes of the loop have different rig files or controllers
-  bool foreign_command = false;      ///< the bridge outputs a voltage that this supervisor has not commanded
-  bool bridge_restarted = false;     ///< this is the first tick of a new bridge
-  bool position_doubtful = false;    ///< the restart has made the position of an axis doubtful, and no reset
-                                     ///< has confirmed this position
+  bool following_error = false;        ///< true: see following.hpp
+  bool swing_sensor_failed = false;    ///< true: see pendulum.hpp
+  bool zone_ahead = false;             ///< true: see zone_filter.hpp
+  bool zone_touched = false;           ///< true: see zone_filter.hpp
+  bool estop_pressed = false;          ///< true: the emergency stop of the rig is pressed
+  bool bridge_latched = false;         ///< true: the bridge holds 0 V and closed brakes by itself
+  bool watchdog_dropped = false;       ///< true: the relay has removed the brake supply
+  bool second_writer = false;          ///< true: a loop topic has a second writer
+  bool configuration_differs = false;  ///< true: processes have different rig files or controllers
+  bool foreign_command = false;        ///< true: the bridge outputs a voltage that no command explains
+  bool bridge_restarted = false;       ///< true: this is the first tick of a new bridge
+  bool position_doubtful = false;    ///< true: the restart has made the position of an axis doubtful, and no
+                                     ///< reset has confirmed this position
   std::size_t doubtful_axis = 0;     ///< first axis with such a position, < kAxes
-  bool swing_zero_doubtful = false;  ///< the load swung when the bridge started
-  bool overrun = false;              ///< too many late ticks in a row
-  bool brake_did_not_close = false;  ///< see motion.hpp
-  bool relay_did_not_open = false;   ///< see motion.hpp
-  bool relay_closed = false;         ///< the relay is still closed although its permission is withheld
-  bool moved_while_arming = false;   ///< an axis moved while the brakes were being opened
+  bool swing_zero_doubtful = false;  ///< true: the load swung when the bridge started
+  bool overrun = false;              ///< true: too many late ticks in a row
+  bool brake_did_not_close = false;  ///< true: see motion.hpp
+  bool relay_did_not_open = false;   ///< true: see motion.hpp
+  bool relay_closed = false;         ///< true: the relay is still closed although its permission is withheld
+  bool moved_while_arming = false;   ///< true: an axis moved while the brakes were being opened
   bool demand_near_zero = false;     ///< true: the demand matches a crane at rest
   bool brakes_open = false;          ///< true: every brake that arming opens reports open
   bool brakes_closed = true;         ///< true: every present brake reports closed
   bool standstill = false;           ///< true: every present axis is at rest
   bool reference_moving = false;     ///< true: a move or a session of the stick is in progress
-  bool not_homed = false;            ///< the position of an axis has no known origin
+  bool not_homed = false;            ///< true: the position of an axis has no known origin
   std::size_t unhomed_axis = 0;      ///< first axis with such a position, < kAxes
-  bool can_home = true;              ///< true: the axis of Request::home has a homing mark
+  std::size_t home_axis = 0;         ///< axis of Request::home, < kAxes
+  bool can_home = true;              ///< true: home_axis has a homing mark
   bool homed = false;                ///< true: the homed axis has found its mark and left it
   HomingFailure homing_failure = HomingFailure::none;
   Requests requests{};

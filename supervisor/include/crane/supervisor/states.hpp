@@ -68,7 +68,7 @@ enum class Reaction : std::uint8_t {
 [[nodiscard]] const char* name_of(State state) noexcept;
 [[nodiscard]] const char* name_of(Cause cause) noexcept;
 
-/// Action of the operator, from the rule table (rules.hpp); never empty.
+/// Action of the operator, from the rule table (rules.hpp); START: "reset, then arm", NONE: "nothing to do".
 [[nodiscard]] const char* remedy_for(Cause cause) noexcept;
 
 /// True for the causes of a stop that no fault required: START, HOMED, OPERATOR_DISARM and IDLE. Only after

@@ -14,7 +14,7 @@ struct Explained {
   std::string reason;  ///< reason and remedy; empty when accepted
 };
 
-/// The topics do not show every input of the supervisor, for example how long the causes have been clear. The
+/// The topics do not show every input of the supervisor, for example the time since the last cause. The
 /// answers assume that these inputs permit the request; docs/safety.md lists the assumptions.
 /// @param state  null: no state
 [[nodiscard]] std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::State* state);
