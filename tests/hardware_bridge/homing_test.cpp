@@ -41,7 +41,7 @@ class Hand {
         0, {.counts = counts(), .active = active(), .requested = requested, .free = free, .rests = !free});
     if (found) change = found;
   }
-  /// Homes the axis: search, back-off, approach, back-off. Starts 0.05 m from the mark, on either side.
+  /// Homes the trolley: search at 0.05 m/s, back-off, approach, back-off.
   void run_course(double approach_mps = 0.01) {
     const double direction = drive_.homing.direction();
     const double to_mark_m = std::abs(true_m - drive_.homing.position);
@@ -73,7 +73,7 @@ class Hand {
   double power_on_m_;
 };
 
-TEST(Homing, OfAnyAxisPutsTheZeroWithinHalfATickOfTheApproach) {
+TEST(Homing, OfATrolleyWithAnySignAndMarkPutsTheZeroWithinHalfATickOfTheApproach) {
   std::mt19937_64 random{7};
   for (int i = 0; i < 200; ++i) {
     auto rig = homing_tower();

@@ -11,13 +11,14 @@ namespace crane::bring_up {
 namespace {
 
 constexpr double kFirstPush_v = 1, kMorePush_v = 0.5;
+constexpr double kBrakeTest_v = 3;  // against a closed brake, at most the largest voltage of the selftest
 constexpr std::array<double, kDrives> kPushDistance{0.03, 0.1,
                                                     0.02};  // m, rad, m: large enough for a visible swing
 constexpr double kSwingSeen_rad = 0.015;
 
-class Gathering {
+class SelftestMotions {
  public:
-  Gathering(Session& session, const SelftestOptions& options)
+  SelftestMotions(Session& session, const SelftestOptions& options)
       : session_{session},
         rig_{session.rig()},
         options_{options},
@@ -73,7 +74,7 @@ class Gathering {
   /// Pushes the axis briefly in both directions. With an open brake it moves by a few centimetres.
   void push_against_brake(std::size_t i) {
     auto& axis = evidence_.axis[i];
-    axis.push_v = std::min(3.0, largest_v(i));
+    axis.push_v = std::min(kBrakeTest_v, largest_v(i));
     for (const double sign : {1.0, -1.0}) {
       const auto jog = bring_up::run(
           session_, {.axis = i, .drive_v = sign * axis.push_v, .distance = kStandstill, .duration_s = 0.1});
@@ -213,7 +214,7 @@ class Gathering {
 }  // namespace
 
 Evidence gather(Session& session, const SelftestOptions& options) {
-  return Gathering{session, options}.run();
+  return SelftestMotions{session, options}.run();
 }
 
 }  // namespace crane::bring_up

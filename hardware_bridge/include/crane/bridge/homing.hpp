@@ -17,7 +17,7 @@ namespace crane::bridge {
 /// One axis at one tick.
 struct MarkView {
   std::int64_t counts = 0;  ///< unwrapped counts
-  bool active = false;      ///< true: the axis is at its homing switch or mark
+  bool active = false;      ///< true: the homing mark is active
   bool requested = false;   ///< true: crane/command homes this axis, and the bridge has not latched
   bool free = false;        ///< true: the brake is commanded open and reports open
   bool rests = false;       ///< true: the closed brake has brought the axis to rest

@@ -148,9 +148,9 @@ class LastLine {
   [[nodiscard]] Outputs decide(const std::optional<CommandView>& command, std::uint64_t tick,
                                const Observation& observation) noexcept;
 
-  /// The latched reason. A latch that is not final ends when fresh commands with 0 V and closed brakes first
-  /// withhold and then grant the watchdog permission, and no second writer is detected. The supervisor
-  /// withholds the permission in STOP_C0, and grants it after the reset by the operator.
+  /// The latched reason. A latch that is not final ends in two steps. First, a fresh command with 0 V and
+  /// closed brakes withholds the watchdog permission (the supervisor does so in STOP_C0). Later, such a
+  /// command grants the permission (after the reset by the operator), while no second writer is detected.
   [[nodiscard]] Reason reason() const { return reason_; }
   /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }
