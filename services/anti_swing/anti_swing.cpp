@@ -9,9 +9,9 @@ namespace {
 using runtime::Context;
 constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick, share of the period
 
-/// Swing feedback acts only on axes whose position is known. An axis of unknown
-/// position moves only during homing, at the low speed of the reference. Swing feedback would move it faster,
-/// and the mark would be found at a wrong position.
+/// Removes the swing feedback of axes with unknown position. Such an axis moves only during homing; swing
+/// feedback would move the axis faster than the reference, and the bridge would find the mark at a wrong
+/// position.
 void remove_unknown_axes(const msg::State& state, control::Contribution& contribution) {
   for (std::size_t i = 0; i < control::kAxes; ++i) {
     if (state.position_known[i]) continue;

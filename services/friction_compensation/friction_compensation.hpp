@@ -6,7 +6,8 @@
 
 namespace crane::services {
 
-/// Joins crane/state, crane/tracking and crane/anti_swing; publishes crane/demand.
+/// Joins crane/state, crane/tracking and crane/anti_swing; publishes crane/demand and, with [adaptation],
+/// crane/adaptation.
 [[nodiscard]] runtime::ComponentSpec friction_compensation_spec();
 
 }  // namespace crane::services

@@ -71,7 +71,6 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   }
 
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::SupervisorStatus* status) override {
-    if (state == nullptr) return;
     missing_statuses_ = status == nullptr ? missing_statuses_ + 1 : 0;
     if (status != nullptr) {
       supervisor_ = status->state;
@@ -275,7 +274,7 @@ runtime::ComponentSpec trajectory_planner_spec() {
   return {
       .name = "trajectory_planner",
       .program = "crane_trajectory_planner",
-      .summary = "Trajectory planner: steps, bang-coast-bang or S-curve moves, with optional input shaping.",
+      .summary = "Trajectory planner: reference of moves, paths around zones, excitations, stick and homing.",
       .source = crane_SOURCE_PLANNER,
       .runs_controller = true,
       .reads = {{&topics::state.description, "positions of the axes at the start of a move"},

@@ -1,6 +1,6 @@
 #pragma once
-/// Position from which each axis began its present move. The trajectory planner publishes it with the
-/// reference, so that all laws see the same value.
+/// Measured position of each axis when its reference position last changed; for a step reference, the start
+/// of the move. The trajectory planner publishes it, so that all laws see the same value.
 #include <array>
 #include <limits>
 
