@@ -111,10 +111,10 @@ TEST(SwingSensor, WhoseGainFallsWithTheAngleIsUnknown) {
   EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
 }
 
-/// A study of two runs of 20 s with its base model.
+/// A study of two runs of 20 s with its base model. The push acts in the first run only.
 struct Studied {
   explicit Studied(std::uint64_t seed, const Push& push = {})
-      : train{prepare(pushed(2 * seed, push), rig), prepare(pushed(2 * seed + 1, push), rig)} {
+      : train{prepare(pushed(2 * seed, push), rig), prepare(pushed(2 * seed + 1, {}), rig)} {
     study.learn_disturbance();
   }
   [[nodiscard]] SwingLeft left(std::uint64_t seed) const {
