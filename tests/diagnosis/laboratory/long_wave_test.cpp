@@ -24,9 +24,9 @@ void expect_wave(double periods) {
   EXPECT_NEAR(found.causes[0].parameters.at(2).value, length_m, 0.02 * length_m);
 }
 
-TEST(LongWaves, NameARippleWithThreePeriodsInTheTravel) { expect_wave(3); }
+TEST(WavesOfTheTravel, WithThreePeriodsAreNamedARipple) { expect_wave(3); }
 
-TEST(LongWaves, NameARippleWithOneAndAHalfPeriodsInTheTravel) { expect_wave(1.5); }
+TEST(WavesOfTheTravel, WithOneAndAHalfPeriodsAreNamedARipple) { expect_wave(1.5); }
 
 }  // namespace
 }  // namespace crane::diagnosis
