@@ -15,12 +15,13 @@ struct Rule {
 
 namespace rules {
 
-// Acceptance of a cause (search/compare.cpp).
+// Acceptance of a cause.
 inline constexpr Rule kFamilywiseLevel{"familywise_level", 0.05, "1",
                                        "probability that any candidate without an effect is accepted",
                                        "level of the test, Bonferroni"};
-inline constexpr Rule kSignificant{"significant", 0.01, "1", "largest p value of a significant score",
-                                   "level of the test"};
+inline constexpr Rule kSignificant{
+    "significant", 0.01, "1",
+    "level of the tests of scores, rivals, drive errors, narrow bands and short forces", "level of the test"};
 inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
                                   "minimum reduction of the error of an output by the first cause",
                                   "read off examples"};
@@ -30,7 +31,7 @@ inline constexpr Rule kLeastBeside{
     "same hypothesis",
     "square root of indistinct: the equation of a term describes a crane with an error of this share"};
 
-// Choice among hypotheses with the same number of causes (verdict/judgement.cpp, search/compare.cpp).
+// Choice among hypotheses with the same number of causes.
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
                                 "level of the vote"};
 inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "minimum share of block resamples for a rival",
@@ -41,7 +42,7 @@ inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
                                   "which both count as equal",
                                   "as pattern: the equations of the terms leave this share of the loss"};
 
-// Proof on held-out runs (verdict/diagnose.cpp).
+// Confirmation on held-out runs.
 inline constexpr Rule kHeldOutWin{
     "held_out_win", 0.95, "1", "minimum share of held-out resamples in which the extended model is likelier",
     "level of the test"};
@@ -63,7 +64,7 @@ inline constexpr Rule kStillFollowed{
     "still_followed", 0.5, "1",
     "minimum share of a drive's motion that the model follows, extended / base model", "read off examples"};
 
-// Residual that is too large or predictable (verdict/judgement.cpp, drive_error.cpp, leftovers.cpp).
+// Residual that is too large or predictable.
 inline constexpr Rule kWorstLoss{"worst_loss", 1.25, "1",
                                  "maximum mean loss of the innovations; 1 for noise as learnt",
                                  "read off examples"};

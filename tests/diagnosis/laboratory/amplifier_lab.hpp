@@ -1,9 +1,9 @@
 #pragma once
 /// A laboratory whose amplifier limits its output or the rate of its output. One drive with set-valued
-/// Coulomb friction, computed without code of the project:
-///   x'' = K (w + a sin(2 pi x / l) - (c + mu |w|) sgn(x') - b x'),   |w| <= limit,   |w'| <= rate,   w
-///   follows the command u
-/// Impulses of friction in steps of 0.1 ms: the axis sticks exactly.
+/// Coulomb friction; only recording::Table is shared with the project:
+///   x'' = K (w + a sin(2 pi x / l) - (c + mu |w|) sgn(x') - b x')
+/// The voltage w follows the command u within |w| <= limit and |w'| <= rate. Impulses of friction in steps of
+/// 0.1 ms: the axis sticks exactly.
 #include <algorithm>
 #include <cmath>
 #include <limits>

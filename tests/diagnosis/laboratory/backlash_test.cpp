@@ -11,7 +11,7 @@ namespace crane::diagnosis {
 namespace {
 
 constexpr double kFriction_v = 0.15, kGap_m = 0.006, kCarriageShare = 0.25;
-/// The load swings by up to 0.3 rad.
+/// Share of the command of the laboratory; the load then swings by up to 0.3 rad.
 constexpr double kCommandShare = 0.5;
 
 /// The gantry of the laboratory with a gap between the motor, whose encoder is measured, and the carriage

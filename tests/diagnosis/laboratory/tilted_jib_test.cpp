@@ -74,7 +74,7 @@ Diagnosis diagnosed(const Lab& lab, const configuration::Rig& rig) {
   return diagnose(rig, {run(1), run(2)}, {run(3)}, request);
 }
 
-/// Tower with the friction and the parameters of `crane`.
+/// The rig file of the tower of the dissertation with the friction and the cable length of `lab`.
 configuration::Rig tower_of(const Lab& lab) {
   configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
   for (plant::TermSetting& term : rig.terms) {

@@ -148,7 +148,7 @@ TEST_F(Compared, ALargerLikelihoodWithoutASmallerErrorIsNotAccepted) {
 
 /// A term describes an effect with an error of a few percent. A second effect of this size could be the
 /// description of this error.
-TEST_F(Compared, ASecondEffectMustChangeAnOutputByNineHundredthsOfTheChangeByTheFirst) {
+TEST_F(Compared, ASecondCauseMustChangeAnOutputByNinePercentOfTheChangeByTheFirst) {
   for (double& block : fitted.deviance) block -= 4;
   Fitted before = base;
   other.drive = true;

@@ -79,7 +79,7 @@ TEST(StatedAccuracy, NamesAnErrorOfScaleThatTwoSmallErrorsDoNotExplain) {
   EXPECT_NE(found.verdict, Verdict::unknown) << found.sentence;
 }
 
-TEST(StatedAccuracy, LeavesALargeErrorItsNameBesideASmallOne) {
+TEST(StatedAccuracy, NamesALargeErrorBesideASmallOne) {
   const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.03);
   ASSERT_EQ(found.verdict, Verdict::named) << found.sentence;
   ASSERT_EQ(found.causes.size(), 1U);

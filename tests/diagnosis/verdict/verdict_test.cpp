@@ -61,7 +61,7 @@ TEST(Sentence, NamesCalibratedValuesAtTheBoundOfTheStatedAccuracy) {
 
 TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
   Diagnosis diagnosis = of(Verdict::ambiguous, {kDelay}, {"actuator_lag"});
-  doubt(diagnosis, "trolley: friction by position");
+  make_unknown(diagnosis, "trolley: friction by position");
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
   EXPECT_TRUE(diagnosis.ambiguous_with.empty());
   EXPECT_EQ(diagnosis.sentence,

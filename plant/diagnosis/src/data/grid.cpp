@@ -144,22 +144,22 @@ std::vector<TimedCommand> with_interpolated_commands(const std::vector<TimedComm
 
 /// True if the command changes more across lost rows than in the rows beside them: a step of the command at
 /// an unknown time may be lost.
-bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, plant::Axis axis) {
-  constexpr double kEdge = 2;  // times the larger change per row around
+bool may_lack_step(const std::vector<TimedCommand>& commands, const LostRows& lost, plant::Axis axis) {
+  constexpr double kLostStepRatio = 2;  // change across the lost rows / larger change per row beside them
   const auto change = [&](std::size_t k) {
     return k + 1 < commands.size() ? std::abs(commands[k + 1].drive_v[axis] - commands[k].drive_v[axis]) : 0;
   };
   const std::size_t k = lost.after;
   const double around = std::max(k > 0 ? change(k - 1) : 0, change(k + 1));
-  return change(k) > kEdge * around * static_cast<double>(lost.count + 1);
+  return change(k) > kLostStepRatio * around * static_cast<double>(lost.count + 1);
 }
 
 /// Marks the grid rows that may have lost a step of the command, and the next row, because the step makes two
 /// values unknown: distance and speed.
-void mark_edges(const std::vector<LostRows>& lost, Run& run) {
+void mark_lost_steps(const std::vector<LostRows>& lost, Run& run) {
   for (const plant::Axis axis : {plant::kTrolley, plant::kSlew})
     for (const LostRows& one : lost) {
-      if (!run.commanded[axis] || !has_edge(run.commands, one, axis)) continue;
+      if (!run.commanded[axis] || !may_lack_step(run.commands, one, axis)) continue;
       run.edge_lost[axis].resize(run.offset_s.size());
       const auto row_of = [&](std::size_t k) {
         return static_cast<std::size_t>(std::lround(run.commands[k].time_s / run.period_s));
@@ -251,7 +251,7 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
     for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].drive_v[axis] = volts[r];
   }
   const std::vector<LostRows> lost = lost_rows(at, grid.row_s);
-  mark_edges(lost, run);
+  mark_lost_steps(lost, run);
   run.commands = with_interpolated_commands(run.commands, lost);
   run.command_v = mean_commands(run.commands, run.period_s, count);
   if (!own_times) run.offset_s.clear();

@@ -8,6 +8,7 @@
 
 namespace crane::diagnosis {
 
+/// Folds of the patterns of drives and swing, and of the lines.
 inline constexpr std::size_t kFolds = 4;
 /// The largest of 99 is exceeded by chance with a probability of 1 %.
 inline constexpr std::size_t kFlips = 99;

@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
-constexpr std::size_t kLines = 200;
+constexpr std::size_t kSpectrumLines = 200;
 /// Distance of lines, in 1 / travel.
 constexpr double kLineSpacing = 0.5;
 /// In half waves over the travel. A peak needs a weaker neighbour on each side: the longest wave that can be
@@ -140,9 +140,10 @@ std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count
   if (drive.all.empty() || !(travel > 0)) return {};
   const double spacing = kLineSpacing / travel;
   const std::vector<MatrixXd> known = responses_of_known_forces(drive);
-  const std::vector<Wave> lines = waves_in_groups(drive, known, of, {kFirstLine * spacing, spacing, kLines});
+  const std::vector<Wave> lines =
+      waves_in_groups(drive, known, of, {kFirstLine * spacing, spacing, kSpectrumLines});
   std::vector<std::size_t> peaks;
-  for (std::size_t line = 1; line + 1 < kLines; ++line)
+  for (std::size_t line = 1; line + 1 < kSpectrumLines; ++line)
     if (lines[line].power >= lines[line - 1].power && lines[line].power >= lines[line + 1].power)
       peaks.push_back(line);
   std::sort(peaks.begin(), peaks.end(),

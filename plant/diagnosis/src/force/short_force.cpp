@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "data/median.hpp"
-#include "force/swing_under.hpp"
+#include "force/pendulum_response.hpp"
 #include "parallel.hpp"
 #include "replay/standstill.hpp"
 #include "rules.hpp"
@@ -73,7 +73,7 @@ std::vector<Pulse> pulses_in(const Pieces& pieces, const Piece& piece, const Win
   if (rows < 1 || rows > all_rows) return {};
   // A constant acceleration of w^2 moves the equilibrium by 1 rad: a force of the weight.
   MatrixXd response = half_sines(all_rows, rows, motion.natural_radps * motion.natural_radps);
-  swing_under(response, motion.natural_radps, motion.period_s);
+  replace_by_pendulum_response(response, motion.natural_radps, motion.period_s);
   response = response_to(pieces, piece, std::move(response));
   const PreparedRun& run = (*pieces.runs)[piece.run];
   std::vector<Pulse> pulses;

@@ -7,7 +7,7 @@
 
 #include "force/bins.hpp"
 #include "force/cross_validation.hpp"
-#include "force/swing_under.hpp"
+#include "force/pendulum_response.hpp"
 #include "force/swing_variables.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
@@ -159,7 +159,7 @@ class PatternTests {
   [[nodiscard]] MatrixXd response(const Tested& test, std::size_t window) const {
     MatrixXd shapes = shapes_in(window, problem_.windows()[window].rows, test.variable, test.range);
     const WindowMotion& motion = problem_.motion(output_, window);
-    if (!test.variable.of_sensor) swing_under(shapes, motion.natural_radps, motion.period_s);
+    if (!test.variable.of_sensor) replace_by_pendulum_response(shapes, motion.natural_radps, motion.period_s);
     return shapes;
   }
 

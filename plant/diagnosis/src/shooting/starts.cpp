@@ -16,10 +16,11 @@ using Eigen::VectorXd;
 
 /// Finite differences: position [m or rad], rate [m/s or rad/s].
 constexpr double kStartPositionStep = 1e-4, kStartRateStep = 1e-3;
-constexpr int kMostStartRounds = 8;
-/// Without whitening, a residual in m or rad counts as one of variance 1: the prior then dominates, and each
-/// round makes a part of the step only.
-constexpr int kMostPlainStartRounds = 100;
+/// Largest number of steps with one linearisation.
+constexpr int kMostStartSteps = 7;
+/// The same for residuals that are not whitened. A residual in m or rad then counts as one of variance 1: the
+/// prior dominates, and the steps are short.
+constexpr int kMostPlainStartSteps = 99;
 /// A start has converged when it explains less of the residual: in noise variances; as a share of the sum of
 /// squares of a residual that is not whitened. The projection removes the explained part.
 constexpr double kStartConverged = 0.1, kPlainStartConverged = 1e-4;
@@ -108,8 +109,8 @@ bool Problem::refine_start(const Replay& replay, std::size_t at, const VectorXd&
   whiten(at, fit.residual);
   bool moved = false;
   double trust = 1;
-  const int most = disturbances_.empty() ? kMostPlainStartRounds : kMostStartRounds;
-  for (int round = 1; round < most; ++round) {
+  const int most = disturbances_.empty() ? kMostPlainStartSteps : kMostStartSteps;
+  for (int step = 0; step < most; ++step) {
     const double found =
         disturbances_.empty() ? kPlainStartConverged * fit.residual.squaredNorm() : kStartConverged;
     if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return moved;

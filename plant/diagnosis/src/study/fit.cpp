@@ -60,12 +60,12 @@ bool same_values(const Effects& a, const Effects& b) {
 }
 
 /// Predicted decrease of the loss by an undamped step without bounds.
-double predicted_decrease(const BlockScores& at) {
+double largest_predicted_decrease(const BlockScores& at) {
   return at.gradient().dot(solve(at.curvature, at.gradient()));
 }
 
 /// Predicted decrease of the loss by a step.
-double promised(const BlockScores& at, const VectorXd& step) {
+double predicted_decrease_of(const BlockScores& at, const VectorXd& step) {
   return step.allFinite() ? 2 * at.gradient().dot(step) - step.dot(at.curvature * step) : 0;
 }
 
@@ -137,7 +137,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
     const BlockScores both = block_scores(best.train, *here, loss);
     if (round >= kLeastRounds && std::isfinite(loss_to_beat)) {
       const double decrease =
-          predicted_decrease(loss == Loss::robust ? both : block_scores(best.train, *here));
+          largest_predicted_decrease(loss == Loss::robust ? both : block_scores(best.train, *here));
       if (best.train.loss - kDecreaseMargin * decrease > loss_to_beat) return false;
     }
     const VectorXd gradient = both.gradient();
@@ -145,7 +145,8 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
     double gained = 0;
     bool as_predicted = true;
     const auto groups = step_groups(best.effects, apart);
-    if (promised(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) < kWorthAStep * enough)
+    if (predicted_decrease_of(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) <
+        kWorthAStep * enough)
       break;
     for (std::size_t group = 0; group < groups.size() && gained < enough; ++group) {
       const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
@@ -155,7 +156,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
         if (!step.allFinite() || step.norm() == 0) break;
         const Effects tried = moved(best.effects, step);
         Evaluation found = evaluate(train_, tried, best.train);
-        const double now = total_loss(found, loss), decrease = promised(both, step);
+        const double now = total_loss(found, loss), decrease = predicted_decrease_of(both, step);
         as_predicted = as_predicted && std::abs(least - now - decrease) <= kAsPredicted * decrease;
         if (now < least) {
           moves = true;
@@ -242,7 +243,7 @@ Effects Study::search_around(const Effects& effects, const Evaluation& near) con
 }
 
 Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
-  const Effects from = is_rough(effects) ? search_around(effects, near.train) : effects;
+  const Effects from = needs_pattern_search(effects) ? search_around(effects, near.train) : effects;
   Fitted fitted = fit(from, near.train.loss - kLeastGain, near.train);
   fitted.error = errors_of(fitted.train);
   fitted.first_nuisance = nuisance_of(fitted, near.first_nuisance);
@@ -266,7 +267,7 @@ Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near, 
   start.effects = std::move(effects);
   start.train = train(start.effects, near);
   Fitted best = start;
-  if (is_rough(best.effects)) step_around(best, &Evaluation::loss, false);
+  if (needs_pattern_search(best.effects)) step_around(best, &Evaluation::loss, false);
   if (!same_values(start.effects, best.effects)) along = {};
   along.keep_first(static_cast<std::size_t>(flatten(best.effects).values.size()));
   start = best;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -68,16 +67,9 @@ void Study::estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effe
   const MatrixXd scores = both.by_block(Eigen::all, free);
   const MatrixXd inverse =
       MatrixXd(both.curvature(free, free)).completeOrthogonalDecomposition().pseudoInverse();
-  fitted.by_noise = inverse.diagonal().head(own).cwiseMax(0.0).cwiseSqrt();
-  // The replay and the equation error of a drive contain the same noise: together they have the information
-  // of one of them.
-  Index value = 0;
-  for (const Effect& effect : fitted.effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++value)
-      if (effect.candidate->drive) fitted.by_noise[value] *= std::numbers::sqrt2;
-  fitted.covariance = (inverse * (scores.transpose() * scores) * inverse).topLeftCorner(own, own);
+  const MatrixXd covariance = inverse * (scores.transpose() * scores) * inverse;
   fitted.std_dev.clear();
-  for (const double variance : fitted.covariance.diagonal())
+  for (const double variance : covariance.diagonal().head(own))
     fitted.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
   fitted.parameters = fitted.std_dev.size();
 }

@@ -134,7 +134,7 @@ Nuisance Study::nuisance_of(const Fitted& fitted, const Nuisance& unchanged, con
 }
 
 bool Study::fitted_jointly(const Effects& effects) const {
-  return !is_rough(effects) && !visible_inaccuracies_beside(effects).empty();
+  return !needs_pattern_search(effects) && !visible_inaccuracies_beside(effects).empty();
 }
 
 Fitted Study::refit_with_own_noise(const Fitted& first_fit) {

@@ -16,7 +16,9 @@ ShowsIn shown_in(const Effects& effects) {
   return parts;
 }
 
-bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
+bool needs_pattern_search(const Effects& effects) {
+  return effects.size() == 1 && effects[0].candidate->rough;
+}
 
 Effects moved(Effects effects, const Eigen::VectorXd& step) {
   Eigen::Index i = 0;

@@ -50,7 +50,7 @@ struct Fitted {
   /// Minus twice the log likelihood of the training data by block, with the penalty of the fitted values.
   Blocks deviance;
   double penalty = 0;  ///< penalty of the fitted values; contained in `deviance`
-  Blocks left_out;     ///< increase of each block's deviance when the fit leaves the block out (Takeuchi)
+  Blocks left_out;     ///< by block: increase of its deviance when the fit omits this block (Takeuchi)
   /// Mean over the windows of the rms error of the simulation in a window, m or rad.
   std::array<double, kOutputs> error{};
   /// The same over whole runs, for swings only: a drive integrates any error of friction into its position.
@@ -58,9 +58,9 @@ struct Fitted {
   /// By effect and output: rms difference, in windows, between the simulations with and without the effect,
   /// from the same starts, m or rad.
   std::vector<std::array<double, kOutputs>> change;
-  std::vector<double> std_dev;  ///< of all values in the order of `effects`; block-robust
-  Eigen::MatrixXd covariance;   ///< of all values, before resampling
-  Eigen::VectorXd by_noise;     ///< std_dev for the learnt noise and disturbance
+  /// Of all values in the order of `effects`. After a fit: by the block scores alone; after with_intervals():
+  /// combined with the other errors, scaled to a 95 % interval of +-1.96.
+  std::vector<double> std_dev;
   std::size_t parameters = 0;
 };
 
@@ -72,9 +72,9 @@ struct ShowsIn {
 /// Parts in which any of the effects is visible.
 [[nodiscard]] ShowsIn shown_in(const Effects& effects);
 
-/// True if slopes do not describe the loss. Several effects are never rough: their fit begins at the values
-/// that each of them has alone.
-[[nodiscard]] bool is_rough(const Effects& effects);
+/// True for one effect whose candidate is rough. Several effects need no pattern search: their fit begins at
+/// the values that each of them has alone.
+[[nodiscard]] bool needs_pattern_search(const Effects& effects);
 
 /// Adds `step` to the values and clamps them to their bounds.
 [[nodiscard]] Effects moved(Effects effects, const Eigen::VectorXd& step);

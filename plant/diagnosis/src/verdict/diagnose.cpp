@@ -196,7 +196,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
       study.whiten_with(found.base.nuisance);
       result.held_out = held_out(study, as_measured, {}, request.seed);
     } else {
-      doubt(result, proof.why);
+      make_unknown(result, proof.why);
     }
   }
   if (result.verdict == Verdict::ambiguous) {

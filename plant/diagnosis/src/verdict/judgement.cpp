@@ -63,13 +63,12 @@ class Judgement {
   }
 
   Judged run() {
-    const bool doubted = doubt();
-    if (doubted)
+    if (has_unexplained_residual())
       result_.verdict = Verdict::unknown;
     else if (causes_.empty())
       result_.verdict = Verdict::none;
     else
-      name();
+      decide_by_vote();
     report_causes();
     result_.sentence = sentence_of(result_);
     return {std::move(result_), std::move(rival_), std::move(within_)};
@@ -92,7 +91,7 @@ class Judgement {
   }
 
   /// True if the residual is not explained; adds the variables on which it depends.
-  bool doubt() {
+  bool has_unexplained_residual() {
     const double load = mean_loss(study_.load(), best_.train.load),
                  drives = mean_loss(study_.drive(), best_.train.drive);
     Remainder& remainder = result_.remainder;
@@ -161,7 +160,7 @@ class Judgement {
 
   /// Vote among the best hypothesis and the rivals of the same size that explain an error. A hypothesis that
   /// the held-out data alone do not confirm may still be the cause.
-  void name() {
+  void decide_by_vote() {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
       if (fitted.effects.size() == best_.effects.size() && lacks_a_cause(fitted) &&
@@ -222,7 +221,7 @@ class Judgement {
   std::uint64_t seed_;
   std::vector<bool> within_;  ///< by effect of `best_`: within the accuracy of the rig file
   std::optional<SignificantDriveError> drive_error_;  ///< of the base model, if no effect is a cause
-  Effects causes_;                                    ///< the other effects of `best_`
+  Effects causes_;                                    ///< effects of `best_` beyond the accuracy
   std::map<const Candidate*, double> frequency_;
   Effects rival_;
   Diagnosis result_;
@@ -230,7 +229,7 @@ class Judgement {
 
 }  // namespace
 
-void doubt(Diagnosis& diagnosis, const std::string& why) {
+void make_unknown(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.verdict = Verdict::unknown;
   diagnosis.ambiguous_with.clear();
   diagnosis.remainder.from.insert(diagnosis.remainder.from.begin(), why);

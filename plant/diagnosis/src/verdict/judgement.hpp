@@ -14,7 +14,7 @@ struct Judged {
 };
 /// Makes the verdict "unknown".
 /// @param why variable on which the remaining residual depends
-void doubt(Diagnosis& diagnosis, const std::string& why);
+void make_unknown(Diagnosis& diagnosis, const std::string& why);
 
 /// @param best  hypotheses.best with the values and standard deviations of with_intervals()
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained

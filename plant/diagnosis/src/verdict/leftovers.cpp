@@ -27,10 +27,11 @@ bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   return candidate.law == left.with && candidate.axis == axis_of(left.output);
 }
 
-/// Largest permitted decrease of the sum of squares by a pattern, in squares of the base model. The form of a
-/// term deviates from its effect, so that a larger pattern is permitted in the variable of one law. Several
-/// laws of the same variable together match any form. No term of a drive depends on time.
-double believable(const Unexplained& left, const Effects& effects) {
+/// Largest share of the squares of the base model that a pattern may explain without contradicting the
+/// hypothesis. The equation of a term is not exact: beside one cause that depends on the same variable, a
+/// larger pattern is permitted. Several causes that depend on the same variable match any form together. No
+/// term of a drive depends on time.
+double largest_permitted_share(const Unexplained& left, const Effects& effects) {
   if (left.with == GoesWith::time) return rules::kPatternShareOverTime;
   const auto laws = std::count_if(effects.begin(), effects.end(),
                                   [&](const Effect& effect) { return of_its_own(*effect.candidate, left); });
@@ -77,7 +78,7 @@ bool counts_as_pattern(const Pattern& pattern, const Effects& effects) {
   const Unexplained& u = pattern.what;
   const bool counts =
       u.with == GoesWith::frequency || (u.fraction > rules::kPattern && u.gain > rules::kPatternLuck);
-  return counts && (effects.empty() || u.gain > believable(u, effects) * pattern.of_base ||
+  return counts && (effects.empty() || u.gain > largest_permitted_share(u, effects) * pattern.of_base ||
                     u.gain > rules::kPatternShareOfCause * pattern.of_weakest);
 }
 

@@ -13,7 +13,7 @@
 namespace crane::diagnosis {
 
 enum class Verdict {
-  none,       ///< these data show no error
+  none,       ///< these data show no error beyond the accuracy of the rig file
   named,      ///< the model lacks the causes
   ambiguous,  ///< several causes explain the data equally well; next_experiment separates them
   parameter,  ///< a quantity of the model has another value than in the rig file
