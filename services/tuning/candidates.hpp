@@ -14,14 +14,14 @@ struct Candidate {
   std::vector<std::pair<std::string, double>> gains;
   bool observer = false;  ///< swing_observer
 
-  /// "gain_scheduling_full, full_state_forward_gain_vpm = 4, observer"
+  /// "gain_scheduling_full, full_state_forward_gain_vpm = 4, swing_observer"
   [[nodiscard]] std::string label() const;
 };
 
 /// @return the rig with the law and gains of the candidate
 [[nodiscard]] configuration::Rig with_candidate(configuration::Rig rig, const Candidate& candidate);
 
-/// All candidates, in the order of the registry of the laws.
+/// All candidates. The ranking keeps their order for equal mean settling times.
 [[nodiscard]] std::vector<Candidate> candidates();
 
 }  // namespace crane::tuning

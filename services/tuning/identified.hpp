@@ -25,11 +25,11 @@ struct IdentifiedDrive {
 
 /// A load on a second cable below a hook: the term double_pendulum.
 struct SecondMode {
-  Value lower_share;     ///< share of the load mass below the hook
-  Value lower_length_m;  ///< hook to load
-  Value hook_raised_m;   ///< distance of the hook above the end of the cable length
-  std::array<double, 2> rest_angle_rad{};
-  double residual_rms = 0;  ///< rms residual of the swing, rad
+  Value lower_share;                    ///< share of the load mass below the hook
+  Value lower_length_m;                 ///< hook to load
+  Value hook_raised_m;                  ///< distance of the hook above the end of the cable length
+  std::array<Value, 2> rest_angle_rad;  ///< radial, tangential; fitted together with the second mode
+  double residual_rms = 0;              ///< rms residual of the swing, rad
 };
 /// Upper bound of SecondMode::lower_share, from the range of the term.
 [[nodiscard]] double largest_lower_share();

@@ -48,8 +48,9 @@ Crane with_drive(Crane crane, std::size_t axis, const std::vector<double>& v) {
   return crane;
 }
 
-/// Delayed command, one entry per row. Works on rows, not on steps of the simulation, because the term
-/// command_delay applies a fraction of a tick to the mean over the tick.
+/// Delayed command, one entry per row. A delay of 1.3 ticks makes each row 0.7 of the previous command and
+/// 0.3 of the command before it: the term command_delay defines the mean of each tick. Therefore the delay is
+/// applied to rows, not to the steps of the simulation.
 std::vector<plant::PerAxis> delayed(const std::vector<plant::PerAxis>& command_v,
                                     const configuration::Rig& rig, std::size_t axis, double delay_s) {
   plant::Model model{
@@ -269,8 +270,12 @@ Identification identify(const MainMotions& motions, const configuration::Rig& ri
   if (const auto second = find_second_mode(runs, rig, load)) {
     found.values.second_mode = second;
     found.swing_residual_rad = second->residual_rms;
-    for (std::size_t i = 0; i < 2; ++i) found.values.rest_angle_rad[i].value = second->rest_angle_rad[i];
-    crane = crane_with(rig, load.cable_m.value, second->rest_angle_rad);
+    const auto& rest = second->rest_angle_rad;
+    const std::size_t angles = rig.measures(plant::kSwingTangential) ? 2 : 1;
+    for (std::size_t i = 0; i < angles; ++i)
+      found.values.rest_angle_rad[i] =
+          with_model_error(rest[i].value, rest[i].standard_error, kRestError.at(i));
+    crane = crane_with(rig, load.cable_m.value, {rest[0].value, rest[1].value});
     crane.terms.push_back(double_pendulum_term(second->lower_share.value, second->lower_length_m.value,
                                                second->hook_raised_m.value));
   }

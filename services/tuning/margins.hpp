@@ -20,9 +20,10 @@ inline constexpr std::array kTestedGains{1.5, 2.0, 3.0};
 inline constexpr double kCableChange = 0.2, kLoadChange = 0.5, kFrictionChange = 0.2;
 
 struct Margins {
-  double delay_periods = 0;       ///< largest tested additional delay with a stable loop
-  double gain = 1;                ///< largest tested factor of the gains with a stable loop
-  bool survives_changes = false;  ///< true: stable with changed cable and load, no stop with friction
+  double delay_periods = 0;  ///< largest tested additional delay with a stable loop
+  double gain = 1;           ///< largest tested factor of the gains with a stable loop
+  /// true: stable with each changed cable and load, and no stop by the supervisor with changed friction
+  bool survives_changes = false;
   /// Largest mean settling time on a changed rig; nothing: the loop does not settle on every changed rig.
   std::optional<double> changed_settling_s;
   [[nodiscard]] bool holds() const {

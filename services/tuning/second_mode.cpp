@@ -75,10 +75,11 @@ std::optional<SecondMode> find_second_mode(const std::vector<diagnosis::Prepared
   if (!best || best->residual_rms > kExplains * load.residual_rms ||
       best->values[0] < kSignificant * best->standard_errors[0])
     return std::nullopt;
-  return SecondMode{.lower_share = {best->values[0], best->standard_errors[0]},
-                    .lower_length_m = {best->values[1], best->standard_errors[1]},
-                    .hook_raised_m = {best->values[2], best->standard_errors[2]},
-                    .rest_angle_rad = {best->values[3], tower ? best->values[4] : 0},
+  const auto value = [&best](std::size_t i) { return Value{best->values[i], best->standard_errors[i]}; };
+  return SecondMode{.lower_share = value(0),
+                    .lower_length_m = value(1),
+                    .hook_raised_m = value(2),
+                    .rest_angle_rad = {value(3), tower ? value(4) : Value{}},
                     .residual_rms = best->residual_rms};
 }
 

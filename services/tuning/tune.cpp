@@ -26,14 +26,15 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Appends the rows of a motion; their time continues the time of `all`.
-void append(recording::Table& all, const recording::Table& motion) {
+/// Appends the rows of a motion; its first row is one period after the last row of `all`.
+void append(recording::Table& all, const recording::Table& motion, double period_s) {
   if (all.columns.empty()) {
     all = motion;
     return;
   }
-  const auto* so_far = all.find("time_s");
-  const double shift_s = so_far->empty() ? 0 : so_far->back() + 0.01;
+  const auto *so_far = all.find("time_s"), *added = motion.find("time_s");
+  const bool both = so_far != nullptr && !so_far->empty() && added != nullptr && !added->empty();
+  const double shift_s = both ? so_far->back() + period_s - added->front() : 0;
   for (auto& column : all.columns) {
     const auto* values = motion.find(column.name);
     if (values == nullptr) throw experiments::RunError("the motions have different columns: " + column.name);
@@ -132,7 +133,7 @@ class Tuner {
     auto motion = crane_.execute(rig, scenario);
     if (const auto* time_s = motion.table.find("time_s"); time_s != nullptr && !time_s->empty())
       result_.motion_s += time_s->back();
-    append(all_, motion.table);
+    append(all_, motion.table, rig_.period_s);
     recording::write_csv(file(kMotionFile), all_);
     std::ranges::copy(motion.differences, std::back_inserter(result_.differences));
     require_every_tick(motion.table);

@@ -13,16 +13,19 @@ constexpr double kMoved_counts = 20;  // smallest motion in counts: more than qu
 constexpr double kMoved = 0.002;      // smallest motion, m or rad
 constexpr double kCertain = 0.7;      // lower bound of the friction / voltage at the first motion
 constexpr double kIdle_v = 0.5;       // largest voltage of an axis that must not move
+constexpr double kMean_s = 0.1;       // time before a motion over which the voltage is averaged
 
 struct AxisData {
   std::vector<double> position, volts;
   double threshold = 0;  ///< smallest motion, m or rad
+  double period_s = 0;
 };
 
 AxisData data_of(const recording::Table& table, const configuration::Rig& rig, std::size_t axis) {
   AxisData data;
   if (const auto* values = table.find(plant::kCoordinates[axis].column)) data.position = *values;
   if (const auto* values = table.find(plant::kCoordinates[axis].command_v)) data.volts = *values;
+  data.period_s = rig.period_s;
   data.threshold = std::max(kMoved, kMoved_counts / rig.encoders[axis].counts_per_unit);
   return data;
 }
@@ -38,9 +41,10 @@ std::optional<std::size_t> first_motion(const AxisData& data, int direction) {
   return std::nullopt;
 }
 
-/// Mean voltage over the 0.1 s before a row.
+/// Mean voltage over the time kMean_s before a row.
 double volts_before(const AxisData& data, std::size_t row) {
-  const std::size_t first = row > 10 ? row - 10 : 0;
+  const auto rows = static_cast<std::size_t>(std::lround(kMean_s / data.period_s));
+  const std::size_t first = row > rows ? row - rows : 0;
   double sum = 0;
   for (std::size_t k = first; k <= row; ++k) sum += data.volts[k];
   return sum / static_cast<double>(row - first + 1);

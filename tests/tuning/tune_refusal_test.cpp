@@ -6,12 +6,15 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/files/complete_file.hpp"
+#include "crane/plant/coordinates.hpp"
+#include "crane/recording/csv.hpp"
 #include "experiments/lockstep_run.hpp"
 #include "hidden_rig.hpp"
 #include "stack/data_files.hpp"
 #include "tune_options.hpp"
 #include "tuning/lockstep_crane.hpp"
 #include "tuning/tune.hpp"
+#include "tuning/wiring.hpp"
 
 namespace crane::tuning {
 namespace {
@@ -71,6 +74,55 @@ TEST(Tune, RefusesAProbeWithMissingTicks) {
   SuspendedCrane crane;
   const auto refusal = refusal_of(tower(), crane, options_for(directory / "out"));
   EXPECT_NE(refusal.find("2 ticks are missing, the first after tick 2"), std::string::npos) << refusal;
+}
+
+/// A crane that does not move; each motion has four rows.
+class StuckCrane final : public CraneAccess {
+ public:
+  [[nodiscard]] Motion execute(const configuration::Rig& rig,
+                               const experiment::Scenario& /*scenario*/) override {
+    Motion motion{{{{"tick", {1, 2, 3, 4}}, {"time_s", {}}}}, ""};
+    for (int row = 0; row < 4; ++row) motion.table.columns[1].values.push_back(row * rig.period_s);
+    return motion;
+  }
+};
+
+TEST(TuneFiles, HaveOnePeriodFromOneRowToTheNextAlsoBetweenTwoMotions) {
+  for (const double period_s : {0.005, 0.01, 0.02}) {
+    const recording::TemporaryDirectory directory;
+    auto rig = tower();
+    rig.period_s = period_s;
+    StuckCrane crane;
+    EXPECT_NE(refusal_of(rig, crane, options_for(directory / "out")).find("does not move"),
+              std::string::npos);
+    const auto table = recording::read_csv(directory / "out" / kMotionFile);
+    const auto& time_s = *table.find("time_s");
+    ASSERT_EQ(time_s.size(), 16U);  // four probes
+    for (std::size_t row = 0; row < time_s.size(); ++row)
+      EXPECT_NEAR(time_s[row], static_cast<double>(row) * period_s, 1e-9) << period_s << " s, row " << row;
+  }
+}
+
+TEST(Probe, HasTheSameFrictionWithEveryPeriod) {
+  constexpr double kRamp_vps = 4, kBreakAway_s = 0.5;
+  for (const double period_s : {0.005, 0.01, 0.02}) {
+    auto rig = tower();
+    rig.period_s = period_s;
+    Motion motion;
+    motion.table.columns = {{plant::kCoordinates[plant::kTrolley].column, {}},
+                            {plant::kCoordinates[plant::kTrolley].command_v, {}}};
+    for (const int direction : {1, -1})
+      for (int row = 0; row * period_s < 2 * kBreakAway_s; ++row) {
+        const double time_s = row * period_s;
+        const bool moved = time_s > kBreakAway_s - period_s / 2;
+        motion.table.columns[0].values.push_back(moved == (direction > 0) ? 1 : 0);
+        motion.table.columns[1].values.push_back(direction * kRamp_vps * time_s);
+      }
+    const auto finding = examine_probe(motion, rig, plant::kTrolley, false);
+    ASSERT_TRUE(finding.moved);
+    // Mean of the ramp over the 0.1 s before the motion.
+    EXPECT_NEAR(finding.friction_v, kRamp_vps * (kBreakAway_s - 0.05), 1e-9) << period_s << " s";
+  }
 }
 
 TEST(TuneFiles, NeverReplaceTheRigFileOrTheHiddenRig) {

@@ -199,6 +199,12 @@ TEST(Long, ALoadBelowAHookIsIdentified) {
   EXPECT_NEAR(found.second_mode->lower_length_m.value, kLength_m, 0.02);
   EXPECT_NEAR(found.cable_m.value - found.second_mode->hook_raised_m.value, hidden.cable_m, 0.01);
   EXPECT_NEAR(found.load_mass_kg.value, hidden.load_mass_kg, 0.1 * hidden.load_mass_kg);
+  // The rest angle and its standard error come from the fit with the second mode.
+  const auto& rest = found.rest_angle_rad[0];
+  EXPECT_EQ(rest.value, found.second_mode->rest_angle_rad[0].value);
+  EXPECT_NEAR(rest.standard_error, std::hypot(found.second_mode->rest_angle_rad[0].standard_error, 3e-6),
+              1e-12);
+  EXPECT_LE(std::abs(rest.value - hidden.rest_angle_rad[0]), 4 * rest.standard_error);
   const auto tuned = configuration::load_rig(directory / "out" / kRigFile);
   EXPECT_EQ(std::ranges::count(tuned.terms, "double_pendulum", &plant::TermSetting::name), 1);
 }
