@@ -117,7 +117,7 @@ Lateness measure_lateness(double period_s, std::chrono::milliseconds duration, i
       ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
       const auto late_ns = runtime::monotonic_ns() - next_ns;
       late_us.push_back(static_cast<double>(late_ns) * 1e-3);
-      if (late_ns > tolerable_ns(period_s)) ++lateness.intolerable;
+      if (late_ns > tolerable_ns(period_s)) ++lateness.overruns;
       next_ns += period_ns * (1 + late_ns / period_ns);  // missed ticks are skipped, as by the bridge
     }
   });
@@ -137,7 +137,7 @@ Findings judge_lateness(const Lateness& lateness, double period_s) {
                            std::to_string(std::llround(period_s * 1e3)) + " ms" +
                            (lateness.fifo ? ", with SCHED_FIFO" : ", with ordinary scheduling") +
                            "; the loop tolerates " + std::to_string(std::llround(tolerable_us)) + " us";
-  if (lateness.intolerable > 0)
+  if (lateness.overruns > 0)
     return {{Grade::problem, "rt", "timer_late", what,
              (lateness.fifo
                   ? "look for programs with a higher priority (`ps -eLo rtprio,comm --sort -rtprio`), for a "

@@ -29,7 +29,7 @@ struct Lateness {
   bool fifo = false;  ///< measured with SCHED_FIFO
   std::size_t ticks = 0;
   double p99_us = 0, max_us = 0;
-  std::size_t intolerable = 0;  ///< ticks that the bridge would count as overruns
+  std::size_t overruns = 0;  ///< ticks that the bridge would count as overruns
 };
 /// Measures the lateness of sleeps until absolute times, as the clock master sleeps.
 /// @param period_s  control period of the rig

@@ -34,13 +34,13 @@ class Watch {
     std::int64_t looked_ns = runtime::monotonic_ns();
     const bool reached = wait_until(bus_, timeout_s, [&] {
       const auto now_ns = runtime::monotonic_ns();
-      if (bus::take_newest(statuses_, status_)) heard_ns_ = now_ns;
+      if (bus::take_newest(statuses_, status_)) status_arrived_ns_ = now_ns;
       bus::take_newest(states_, state_);
       if (now_ns - std::exchange(looked_ns, now_ns) > kSilent_ns)
         throw std::runtime_error(
             "home: this program was suspended for more than 2 s: look at `crane status`, and repeat "
             "`crane home`");
-      if (status_ && now_ns - heard_ns_ > kSilent_ns)
+      if (status_ && now_ns - status_arrived_ns_ > kSilent_ns)
         throw std::runtime_error(
             "home: no sample of crane/supervisor for 2 s: the stack has ended, or its host cannot be "
             "reached; "
@@ -63,7 +63,7 @@ class Watch {
   bus::Subscriber<msg::State> states_;
   std::optional<msg::SupervisorStatus> status_;
   std::optional<msg::State> state_;
-  std::int64_t heard_ns_ = 0;  ///< CLOCK_MONOTONIC, arrival of `status_`
+  std::int64_t status_arrived_ns_ = 0;  ///< CLOCK_MONOTONIC, arrival of `status_`
 };
 
 /// Order of homing. The hoist is first, because a short cable reduces the swing. The slew axis is last,
@@ -90,10 +90,10 @@ std::vector<std::size_t> axes_to_home(const HomeOptions& options, const msg::Sta
 
 /// Waits from the acceptance of the request until the position is known. @throws std::runtime_error
 void follow(Watch& watch, std::size_t axis, double timeout_s) {
-  bool taken_up = false;
+  bool began = false;
   const bool done = watch.until(timeout_s, [&](const msg::SupervisorStatus& status, const msg::State& state) {
-    taken_up = taken_up || status.homing[axis];
-    if (!taken_up || status.homing[axis]) return false;
+    began = began || status.homing[axis];
+    if (!began || status.homing[axis]) return false;
     if (status.cause != crane_CAUSE_HOMED) throw_stopped(status);
     return state.position_known[axis];
   });
@@ -102,22 +102,22 @@ void follow(Watch& watch, std::size_t axis, double timeout_s) {
         "home: not complete before the timeout; the crane continues to move (stop it with `crane stop`)");
 }
 
-/// The homing of an axis ends with a stop. Resets this stop when its cause has been inactive for a second.
-/// Each request names the status that it answers: the supervisor refuses it if an operator has stopped the
-/// crane since.
-void acknowledge(bus::Bus& bus, Watch& watch) {
+/// Resets the stop that ends the homing of an axis. Requests a reset every 0.2 s, at most 20 times: the
+/// supervisor accepts it one second after the cause. Each request names the status that it answers: the
+/// supervisor refuses it if an operator has stopped the crane since.
+void reset_after_homing(bus::Bus& bus, Watch& watch) {
   constexpr double kStops_s = 5;
   constexpr int kTries = 20;
-  const auto stops_by_homing = [](const msg::SupervisorStatus& status) {
+  const auto is_stop_of_homing = [](const msg::SupervisorStatus& status) {
     return status.cause == crane_CAUSE_HOMED;
   };
   Answer answer;
   for (int i = 0; i < kTries && !answer.accepted; ++i) {
     if (i > 0) watch.until(0.2, [](const auto&, const auto&) { return false; });
     watch.until(kStops_s, [&](const msg::SupervisorStatus& status, const msg::State&) {
-      return status.state == crane_STATE_LOCKED || !stops_by_homing(status);
+      return status.state == crane_STATE_LOCKED || !is_stop_of_homing(status);
     });
-    if (!stops_by_homing(watch.status())) throw_stopped(watch.status());
+    if (!is_stop_of_homing(watch.status())) throw_stopped(watch.status());
     answer = ask(bus, {.kind = crane_REQUEST_RESET, .newest_status = watch.status().header});
   }
   if (!answer.accepted) throw std::runtime_error("home: reset refused: " + answer.reason);
@@ -126,14 +126,14 @@ void acknowledge(bus::Bus& bus, Watch& watch) {
 int home(const HomeOptions& options) {
   auto bus = open_bus(options.bus, crane_SOURCE_OPERATOR);
   Watch watch{bus};
-  constexpr double kFind_s = 5;
-  if (!watch.until(kFind_s, [](const auto&, const auto&) { return true; }))
+  constexpr double kDiscovery_s = 5;
+  if (!watch.until(kDiscovery_s, [](const auto&, const auto&) { return true; }))
     throw NoAnswer("no sample of crane/supervisor or crane/state received" + where_and_remedy(bus));
   const auto axes = axes_to_home(options, watch.state());
   if (axes.empty()) std::cout << "home: the position of every axis is known\n";
   bool first = true;
   for (const auto axis : axes) {
-    if (!first) acknowledge(bus, watch);
+    if (!first) reset_after_homing(bus, watch);
     first = false;
     stack::OperatorRequest wanted{.kind = crane_REQUEST_HOME};
     wanted.selected[axis] = true;
@@ -162,7 +162,7 @@ void add_home(CLI::App& app, Action& chosen) {
   command->footer(
       "Example: crane reset && crane home && sleep 2 && crane reset && crane arm\n"
       "The crane must be READY. Only the brake of the axis that is being homed opens. The axis moves\n"
-      "slowly to its limit switch or mark ([homing] in the rig file), backs off, and approaches it again.\n"
+      "slowly to its homing mark ([homing] in the rig file), backs off, and moves to the mark again.\n"
       "The final state is LOCKED. A person must stand at the emergency stop.");
   command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
 }
