@@ -22,8 +22,8 @@ enum class Mark : std::uint8_t {
 struct Homing {
   Mark mark = Mark::limit_low;
   double position = 0;        ///< position at which the switch of the mark changes, unit
-  double speed = 0;           ///< search speed, unit/s
-  double approach_speed = 0;  ///< speed of the second approach, which sets the position
+  double speed = 0;           ///< of the search and of the motions away from the mark, unit/s
+  double approach_speed = 0;  ///< of the second approach, which determines the position, unit/s
   /// Distance that the axis backs off after the switch has opened, unit. Also the tolerance of the position
   /// of the mark in later passes.
   double back_off = 0;

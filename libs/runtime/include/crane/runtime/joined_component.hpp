@@ -61,8 +61,8 @@ class JoinedComponent : public Component {
         join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...},
         agreement_{context.node.identity().configuration} {}
 
-  /// Computes one step. A pointer is null only when its sample is missing and steps_incomplete_ticks() is
-  /// true.
+  /// Computes one step. The leader is never null; another input is null only when its sample is missing and
+  /// steps_incomplete_ticks() is true.
   virtual void on_tick(std::uint64_t tick, const Inputs*... samples) = 0;
   [[nodiscard]] virtual bool steps_incomplete_ticks() const { return false; }
   virtual void handle_requests(std::int64_t /*now_ns*/) {}
