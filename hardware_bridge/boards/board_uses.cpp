@@ -1,11 +1,6 @@
 #include "crane/boards/board_uses.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <random>
-#include <string>
-
-#include "crane/boards/shared_lines.hpp"
 
 namespace crane::bridge {
 namespace {
@@ -20,34 +15,18 @@ std::string file_name(const configuration::Rig& rig, const std::string& crane, s
   return "/crane_board_uses_" + board;
 }
 
-/// 0 marks a new file.
-std::uint64_t random_start() {
-  std::random_device random;
-  return std::uint64_t{random()} << 32U | random() | 1U;
-}
-
-class SharedCount {
- public:
-  explicit SharedCount(const std::string& name)
-      : file_{name}, count_{static_cast<Count*>(file_.map(sizeof(Count)))} {
-    std::uint64_t unset = 0;
-    count_->compare_exchange_strong(unset, random_start());
-  }
-  [[nodiscard]] Count& count() { return *count_; }
-
- private:
-  SharedFile file_;
-  Count* count_;
-};
-
 }  // namespace
 
-std::uint64_t board_uses(const configuration::Rig& rig, const std::string& crane, std::uint32_t domain) {
-  return SharedCount{file_name(rig, crane, domain)}.count();
-}
+BoardUses::BoardUses(const configuration::Rig& rig, const std::string& crane, std::uint32_t domain)
+    : file_{file_name(rig, crane, domain)}, count_{static_cast<const Count*>(file_.map(sizeof(Count)))} {}
+
+BoardUses::~BoardUses() { file_.unlink(); }
 
 void count_board_use(const configuration::Rig& rig, const std::string& crane, std::uint32_t domain) {
-  ++SharedCount{file_name(rig, crane, domain)}.count();
+  const std::string name = file_name(rig, crane, domain);
+  if (!SharedFile::exists(name)) return;
+  SharedFile file{name};
+  ++*static_cast<Count*>(file.map(sizeof(Count)));
 }
 
 }  // namespace crane::bridge

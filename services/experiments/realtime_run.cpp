@@ -105,6 +105,9 @@ std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(t
 
 }  // namespace
 
+RealtimeRuns::RealtimeRuns(RealtimeRunOptions options) : options_{std::move(options)} {}
+RealtimeRuns::~RealtimeRuns() = default;
+
 RealtimeRuns::End RealtimeRuns::observed_end(RealtimeSession& session, const configuration::Rig& rig,
                                              bool load_at_rest) {
   std::string problem;
@@ -148,13 +151,11 @@ RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::
   return run_from_start(started, controller, scenario);
 }
 
-void RealtimeRuns::require_sole_use(const configuration::Rig& rig) {
-  const std::uint64_t uses = bridge::board_uses(rig, options_.bus.crane, options_.bus.domain);
+void RealtimeRuns::require_sole_use() {
   // While the bridge of this run has the board, no other bridge can open it and move the crane.
-  if (board_uses_ && uses != *board_uses_ + 1)
+  if (board_uses_->count() != ++bridges_)
     throw SessionError(
         "another hardware bridge has used the board since the run before: the crane may have moved"s + kGoOn);
-  board_uses_ = uses;
 }
 
 RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, const std::string& controller,
@@ -164,15 +165,17 @@ RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, 
   stack::LaunchOptions launch_options{
       .bus = options_.bus, .vendors = options_.vendors, .rig = rig_file.string(), .controller = controller};
   if (!real) launch_options.bus.crane += "_run_" + std::to_string(::getpid());
-  stack::ChildProcesses children;
   const auto rig = configuration::load_rig(rig_file);
+  if (real && board_uses_ == nullptr)
+    board_uses_ = std::make_unique<bridge::BoardUses>(rig, options_.bus.crane, options_.bus.domain);
+  stack::ChildProcesses children;
   if (real) stack::launch_rig(children, rig, launch_options);
   stack::launch(children, specs, launch_options);
   auto observer = launch_options.bus;
   observer.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
   bus::Bus bus{runtime::bus_options(observer, "crane_run", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
-  if (real) require_sole_use(rig);
+  if (real) require_sole_use();
   RealtimeSession session{bus, [&children] {
                             if (const auto ended = children.ended())
                               throw SessionError(stack::describe(*ended));

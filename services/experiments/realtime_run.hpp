@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "crane/runtime/process.hpp"
 #include "stack/stack.hpp"
 
+namespace crane::bridge {
+class BoardUses;
+}
 namespace crane::experiments {
 
 class RealtimeSession;
@@ -38,7 +42,8 @@ struct RealtimeRunOptions {
 /// load must hang at rest between two runs, because the bridge sets the swing to zero.
 class RealtimeRuns {
  public:
-  explicit RealtimeRuns(RealtimeRunOptions options) : options_{std::move(options)} {}
+  explicit RealtimeRuns(RealtimeRunOptions options);
+  ~RealtimeRuns();
 
   /// Omits kicks, true loads and initial swing of the scenario, which apply to simulations only.
   /// @throws SessionError when the crane was stopped; when, at the end of the previous run, the load was
@@ -65,12 +70,12 @@ class RealtimeRuns {
                                            const experiment::Scenario& scenario);
   /// Call when the bridge of a run has opened the board. @throws SessionError when another bridge has opened
   /// it since the previous run
-  void require_sole_use(const configuration::Rig& rig);
+  void require_sole_use();
 
   RealtimeRunOptions options_;
-  std::optional<End> end_;  ///< of the last run on a real crane
-  /// bridge::board_uses() during the last run on a real crane.
-  std::optional<std::uint64_t> board_uses_;
+  std::optional<End> end_;                         ///< of the last run on a real crane
+  std::unique_ptr<bridge::BoardUses> board_uses_;  ///< on a real crane, from the start of the first run on
+  std::uint64_t bridges_ = 0;                      ///< number of bridges that the runs have started
 };
 
 }  // namespace crane::experiments

@@ -54,7 +54,9 @@ class Checks {
       any = any || columns_.outputs[i].values != nullptr;
     }
     if (!any)
-      findings_.problem("columns", "none of the rig's positions or swing angles is there",
+      findings_.problem("columns",
+                        "no position of trolley or slew and no swing angle of the rig is there; the hoist is "
+                        "not examined",
                         "see docs/data.md");
     find_commands();
     if (rig_.drives[plant::kTrolley].present && columns_.outputs[kRadialSwing].values != nullptr &&

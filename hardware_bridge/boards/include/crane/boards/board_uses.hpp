@@ -1,21 +1,34 @@
 #pragma once
-/// Number of bridges that have opened a board. A program whose bridge has ended can thus find out whether the
-/// next bridge on this board is its own: only then do the axes still stand where its last run ended.
+/// Number of bridges that open a board. A program whose bridge has ended can thus find out whether its next
+/// bridge is also the next one on this board: only then do the axes still stand where its last run ended.
+#include <atomic>
 #include <cstdint>
 #include <string>
 
+#include "crane/boards/shared_lines.hpp"
 #include "crane/configuration/rig.hpp"
 
 namespace crane::bridge {
 
-/// Number of uses of the board of `rig`, plus a random start value: after a removal of the shared memory, the
-/// numbers differ from the earlier ones. A board is known by its kind, address and device file; an emulated
-/// board also by crane and domain. @throws BoardError when the number cannot be read
-[[nodiscard]] std::uint64_t board_uses(const configuration::Rig& rig, const std::string& crane,
-                                       std::uint32_t domain);
+/// Counts the bridges that open the board of a rig while this object exists. A board is known by its kind,
+/// address and device file; an emulated board also by crane and domain.
+class BoardUses {
+ public:
+  /// @throws BoardError when the shared memory of the number cannot be used
+  BoardUses(const configuration::Rig& rig, const std::string& crane, std::uint32_t domain);
+  ~BoardUses();
+  BoardUses(const BoardUses&) = delete;
+  BoardUses& operator=(const BoardUses&) = delete;
 
-/// Counts one use. @pre the caller has the board, so that no other bridge can have it.
-/// @throws BoardError when the number cannot be written
+  [[nodiscard]] std::uint64_t count() const { return *count_; }
+
+ private:
+  SharedFile file_;
+  const std::atomic<std::uint64_t>* count_;
+};
+
+/// Counts one use, if a BoardUses of this board exists. @pre the caller has the board, so that no other
+/// bridge can have it. @throws BoardError
 void count_board_use(const configuration::Rig& rig, const std::string& crane, std::uint32_t domain);
 
 }  // namespace crane::bridge
