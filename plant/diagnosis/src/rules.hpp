@@ -42,6 +42,11 @@ inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
                                   "which both count as equal",
                                   "as pattern: the equations of the terms leave this share of the loss"};
 
+inline constexpr Rule kRarerCause{"rarer_cause", 6.63, "1",
+                                  "decrease of the deviance by which a rarer cause must exceed a more common "
+                                  "one with nearly the same effect",
+                                  "99 % quantile of chi-square with one degree of freedom"};
+
 // Confirmation on held-out runs.
 inline constexpr Rule kHeldOutWin{
     "held_out_win", 0.95, "1", "minimum share of held-out resamples in which the extended model is likelier",
@@ -106,6 +111,7 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kClearWin,
                                  kRunnerUp,
                                  kIndistinct,
+                                 kRarerCause,
                                  kHeldOutWin,
                                  kGainLevel,
                                  kWorthwhile,

@@ -77,7 +77,7 @@ const std::vector<ConfoundedGroup>& confounded_groups() {
       {{"direction_asymmetry", "jib_tilt", "command_offset"}, "break-away, payload"},
       {{"steady_wind", "swing_offset", "jib_tilt"}, "half a turn (wind), a known added mass (tilt)"},
       {{"stribeck_friction", "position_dependent_friction"}, "the same places at several speeds"},
-      {{"motor_gain", "position_scale"}, "a load"},
+      {{"motor_gain", "drive_inertia", "position_scale"}, "a load (scale), friction (inertia)"},
       {{"cable_elasticity", "cable_length"}, "no experiment: the bounce of the load is not measured"}};
   return kGroups;
 }

@@ -49,7 +49,28 @@ std::string label_of(const Effects& effects) {
   return label;
 }
 
-bool less(const Fitted& a, const Fitted& b) { return sum(a.deviance) < sum(b.deviance); }
+namespace {
+
+/// Deviance, with kRarerCause for each rarer cause.
+double judged_deviance(const Fitted& fitted) {
+  const auto rarer = std::ranges::count_if(
+      fitted.effects, [](const Effect& effect) { return !effect.candidate->rarer_than.empty(); });
+  return sum(fitted.deviance) + rules::kRarerCause * static_cast<double>(rarer);
+}
+
+}  // namespace
+
+bool less(const Fitted& a, const Fitted& b) { return judged_deviance(a) < judged_deviance(b); }
+
+bool differs_by_rarer_causes(const Effects& rival, const Effects& best) {
+  return std::ranges::all_of(rival, [&](const Effect& effect) {
+    const Candidate& candidate = *effect.candidate;
+    return has(best, &candidate) || std::ranges::any_of(best, [&](const Effect& common) {
+             return common.candidate->cause == candidate.rarer_than &&
+                    common.candidate->axis == candidate.axis;
+           });
+  });
+}
 
 bool likelier_without_penalty(const Fitted& a, const Fitted& b) {
   return sum(a.deviance) - a.penalty < sum(b.deviance) - b.penalty;

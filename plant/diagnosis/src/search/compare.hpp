@@ -14,11 +14,16 @@ namespace crane::diagnosis {
 /// "command_delay (trolley) + payload_mass"
 [[nodiscard]] std::string label_of(const Effects& effects);
 
-/// Compares minus twice the log likelihood of the training data plus the penalty of the fitted values.
+/// Compares minus twice the log likelihood of the training data plus the penalty of the fitted values, and
+/// rules::kRarerCause for each rarer cause.
 [[nodiscard]] bool less(const Fitted& a, const Fitted& b);
 
 /// Compares minus twice the log likelihood of the training data.
 [[nodiscard]] bool likelier_without_penalty(const Fitted& a, const Fitted& b);
+
+/// True if `rival` has, for each effect that `best` lacks, an effect of which `best` has the more common
+/// cause (Candidate::rarer_than).
+[[nodiscard]] bool differs_by_rarer_causes(const Effects& rival, const Effects& best);
 
 /// True when both have the same candidates; their values may differ.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);

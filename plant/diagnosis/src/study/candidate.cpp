@@ -64,7 +64,7 @@ class Builder {
     // If the model sticks where the axis moved, or moves where the axis stuck, a small change of force or
     // friction has no effect. Larger probes are needed.
     const double c = known.least_coulomb_v;
-    std::vector<std::vector<double>> levels, sides, offsets, gains, excesses;
+    std::vector<std::vector<double>> levels, sides, offsets, gains, inertias, excesses;
     if (c > 0) {
       excesses = {{0.3 * c, 0.06}, {0.6 * c, 0.06}, {0.45 * c, 0.12}};
       levels = {{-0.15 * c}, {-0.3 * c}, {-0.6 * c}, {0.3 * c}};
@@ -73,6 +73,7 @@ class Builder {
         offsets.push_back({share * c});
       }
       gains = {{0.8}, {1.15}, {1.4}};
+      inertias = {{0.75}, {0.87}, {1.25}};
     }
     add_force(GoesWith::speed, reaching(amount("coulomb_friction", axis, "level_v", -c, 5, 0.02), levels),
               in_rig_file(known.present));
@@ -98,6 +99,9 @@ class Builder {
     all_.add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), Changes::drive);
     all_.add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), Changes::drive,
              InRigFile::yes);
+    Candidate inertia = reaching(amount("drive_inertia", axis, "factor", 0.2, 5, 0.01), inertias);
+    inertia.rarer_than = "motor_gain";
+    all_.add(std::move(inertia), Changes::drive, InRigFile::yes);
     all_.add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), Changes::drive);
     all_.add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), Changes::drive);
     add_limits(axis, output);

@@ -31,7 +31,8 @@ Candidate jib_inertia() {
 
 std::vector<double> largest_inaccuracy(const std::string& cause, const std::string& axis,
                                        const configuration::Rig& rig, const Accuracy& accuracy) {
-  if (cause == "motor_gain" || cause == "position_scale" || cause == "swing_scale" || cause == "jib_inertia")
+  if (cause == "motor_gain" || cause == "drive_inertia" || cause == "position_scale" ||
+      cause == "swing_scale" || cause == "jib_inertia")
     return {accuracy.values};
   if (cause == "cable_length") return {accuracy.values * rig.start.position[plant::kHoist]};
   if (cause == "payload_mass") return {accuracy.values * rig.plant.load_mass_kg};

@@ -164,7 +164,7 @@ class Judgement {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
       if (fitted.effects.size() == best_.effects.size() && lacks_a_cause(fitted) &&
-          possible(fitted, all_.base, seed_))
+          !differs_by_rarer_causes(fitted.effects, best_.effects) && possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
     const std::vector<double> picked = shares_of_votes(best_, equals, all_.base, seed_);
     double left = 1;

@@ -24,11 +24,11 @@ bool is_limit(const Candidate& candidate) {
 }
 
 /// Another quantity with the same accuracy has the same effect: of the scale of the swing that of the
-/// measured support, of the scale of a position the gain of its drive, and of the gain the scale. Both errors
-/// add.
+/// measured support, of the scale of a position the gain of its drive, and of gain and inertia the scale.
+/// Both errors add.
 bool is_confounded_with_a_scale(const Candidate& candidate) {
   return candidate.cause == "swing_scale" || candidate.cause == "position_scale" ||
-         candidate.cause == "motor_gain";
+         candidate.cause == "motor_gain" || candidate.cause == "drive_inertia";
 }
 
 /// The load hangs anywhere within one resolution of the sensor when the sensor is zeroed.

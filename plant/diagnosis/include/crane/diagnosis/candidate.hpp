@@ -61,6 +61,9 @@ struct Candidate {
   std::vector<std::vector<double>> rough_starts;
   std::optional<GoesWith> law;           ///< the only variable on which the force of the candidate depends
   bool changes_known_parameter = false;  ///< true: the base model contains this quantity, with another value
+  /// A more common cause with nearly the same effect on the same axis. The candidate replaces it only if the
+  /// data show the difference (rules::kRarerCause). Empty: none.
+  std::string rarer_than;
   /// Parameter values for amounts of a shape's small probes.
   std::function<std::vector<double>(const Shape&, const std::vector<double>&)> of_amounts;
 
