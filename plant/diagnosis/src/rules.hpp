@@ -21,8 +21,7 @@ inline constexpr Rule kFamilywiseLevel{"familywise_level", 0.05, "1",
                                        "level of the test, Bonferroni"};
 inline constexpr Rule kSignificant{
     "significant", 0.01, "1",
-    "level of the tests of scores, rivals, further causes, drive errors, narrow bands and short forces",
-    "level of the test"};
+    "level of the tests of scores, rivals, drive errors, narrow bands and short forces", "level of the test"};
 inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
                                   "minimum reduction of the error of an output by the first cause",
                                   "read off examples"};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "rules.hpp"
 #include "search/compare.hpp"
 #include "search/intervals.hpp"
 #include "search/parts.hpp"
@@ -15,7 +14,7 @@ Fitted without_insignificant(Study& study, Hypotheses& found, std::uint64_t seed
     if (best.effects.size() < 2) return best;
     const std::vector<double> p_values = wald_p_values(best);
     const auto least_certain = std::ranges::max_element(p_values);
-    if (*least_certain < rules::kSignificant) return best;
+    if (!insignificant(*least_certain, study.candidates().size())) return best;
     const Effects rest = without(best.effects, static_cast<std::size_t>(least_certain - p_values.begin()));
     if (const Fitted* part = find(found.all, rest)) {
       found.best = *part;
