@@ -113,8 +113,8 @@ double held_out_loss_p_value(const Fitted& fitted, const Fitted& before, double 
   return chance_of(-2 * held_out_nats, fitted, before);
 }
 
-std::vector<double> wald_p_values(const Fitted& fitted) {
-  std::vector<double> all;
+double wald_p_value(const Fitted& fitted) {
+  double most = 0;
   std::size_t first = 0;
   for (const Effect& effect : fitted.effects) {
     double surest = 0;
@@ -123,14 +123,9 @@ std::vector<double> wald_p_values(const Fitted& fitted) {
       if (fitted.std_dev[first + k] > 0) surest = std::max(surest, distance / fitted.std_dev[first + k]);
     }
     first += effect.values.size();
-    all.push_back(std::erfc(surest / std::numbers::sqrt2));
+    most = std::max(most, std::erfc(surest / std::numbers::sqrt2));
   }
-  return all;
-}
-
-double wald_p_value(const Fitted& fitted) {
-  const std::vector<double> all = wald_p_values(fitted);
-  return all.empty() ? 0 : *std::ranges::max_element(all);
+  return most;
 }
 
 bool insignificant(double chance, std::size_t candidates) {

@@ -57,12 +57,10 @@ namespace crane::diagnosis {
 /// many training as held-out data, the loss is half a chi-square with one degree of freedom for each value.
 /// @param held_out_nats  gain of log likelihood of the held-out data; < 0: loss
 [[nodiscard]] double held_out_loss_p_value(const Fitted& fitted, const Fitted& before, double held_out_nats);
-/// p values of the Wald test (Trans. Amer. Math. Soc. 54 (1943) 426) of "the amount of the effect is 0", by
-/// effect: two-sided tail of the normal distribution at amount / standard deviation. For an effect with two
-/// amounts, the more certain amount counts. In [0, 1].
+/// p value of the Wald test (Trans. Amer. Math. Soc. 54 (1943) 426) of "the amount of the least certain
+/// effect is 0": two-sided tail of the normal distribution at amount / standard deviation. For an effect with
+/// two amounts, the more certain amount counts. In [0, 1]; 0 without effects.
 /// @param fitted with std_dev from with_intervals()
-[[nodiscard]] std::vector<double> wald_p_values(const Fitted& fitted);
-/// The largest of wald_p_values(); 0 without effects.
 [[nodiscard]] double wald_p_value(const Fitted& fitted);
 /// True when `p_value` is not significant for the best of `candidates` (Bonferroni, kFamilywiseLevel).
 [[nodiscard]] bool insignificant(double p_value, std::size_t candidates);

@@ -9,8 +9,8 @@
 #include "rules.hpp"
 #include "search/block_votes.hpp"
 #include "search/compare.hpp"
-#include "search/elimination.hpp"
 #include "search/held_out.hpp"
+#include "search/intervals.hpp"
 #include "verdict/excitation.hpp"
 #include "verdict/judgement.hpp"
 #include "verdict/losing_encoders.hpp"
@@ -168,7 +168,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   Fitted best = found.best;
   if (!best.effects.empty()) {
     request.progress(0.85, "standard deviations");
-    best = without_insignificant(study, found, request.seed);
+    best = with_intervals(study, best, request.seed);
   }
   request.progress(0.88, "patterns in the residual");
   const StatedAccuracy accuracy(rig, request.accuracy);
