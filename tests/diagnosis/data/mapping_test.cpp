@@ -57,6 +57,13 @@ slew_angle_rad = { column = "deg", factor = 0.5, sign = -1, offset = 7, wraps = 
               HasSubstr("wraps = 10: is permitted for positions and angles only"));
 }
 
+TEST(Mapping, OfRunsOnlyNeedsNoColumns) {
+  const auto mapping = parse_mapping("[runs.\"a.csv\"]\nload_mass_kg = 2\n", "their.toml");
+  EXPECT_EQ(mapping.runs.at("a.csv").load_mass_kg, 2);
+  const auto table = recording::parse_csv("time_s,swing_radial_rad\n0,0.1\n1,0.2\n", "a.csv");
+  EXPECT_THAT(*canonical(table, mapping, "a.csv").find("swing_radial_rad"), ElementsAre(0.1, 0.2));
+}
+
 TEST(Mapping, WithoutColumnsKeepsCanonicalColumnsOnly) {
   const auto table = recording::parse_csv("tick,time_s,slew_angle_rad\n1,0,2\n", "run.csv");
   EXPECT_THAT(names_of(canonical(table, {}, "run.csv")), ElementsAre("time_s", "slew_angle_rad"));

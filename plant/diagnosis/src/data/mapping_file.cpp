@@ -82,7 +82,7 @@ std::vector<Stretch> read_stretches(TomlTable& table, const std::string& file) {
 Mapping parse_mapping(const std::string& text, const std::string& file) {
   TomlTable root(text, file);
   Mapping mapping;
-  mapping.columns = read_columns(root.required_table("columns"));
+  mapping.columns = read_columns(root.table("columns"));
   mapping.whole.from_s = root.number("from_s", Range::any(), mapping.whole.from_s);
   mapping.whole.to_s = root.number("to_s", Range::any(), mapping.whole.to_s);
   if (mapping.whole.from_s >= mapping.whole.to_s) root.problem("to_s", "must be after from_s");
