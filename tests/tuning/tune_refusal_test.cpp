@@ -13,6 +13,7 @@
 #include "stack/data_files.hpp"
 #include "tune_options.hpp"
 #include "tuning/lockstep_crane.hpp"
+#include "tuning/realtime_crane.hpp"
 #include "tuning/tune.hpp"
 #include "tuning/wiring.hpp"
 
@@ -191,6 +192,15 @@ TEST(Tune, RefusesARigOnWhichNoLawSettles) {
   const auto content = nlohmann::json::parse(json);
   EXPECT_FALSE(content.at("refused").empty());
   EXPECT_EQ(content.at("ranking").size(), 1U);
+}
+
+/// The processes of a motion read a rig file in the directory of the results.
+TEST(Tune, InRealTimeRefusesADirectoryIntoWhichAnotherTuningWrites) {
+  const recording::TemporaryDirectory directory;
+  RealtimeOptions options;
+  options.directory = directory / "";
+  const RealtimeCrane first{options};
+  EXPECT_THROW(const RealtimeCrane second{options}, files::WriteError);
 }
 
 TEST(Tune, RefusesAParameterOutsideThePriors) {

@@ -129,6 +129,25 @@ TEST_F(Compared, AnAmountWhoseIntervalContainsZeroIsNotSignificant) {
   EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the second amount
 }
 
+TEST_F(Compared, ARarerCauseMustBeLikelierThanItsMoreCommonTwinByAMargin) {
+  effect.cause = "drive_inertia";
+  other.cause = "motor_gain";
+  effect.axis = other.axis = "trolley";
+  effect.rarer_than = other.cause;
+  Fitted rare, common;
+  rare.effects = {{&effect, {1.1}}};
+  common.effects = {{&other, {0.9}}};
+  common.deviance = {100};
+  rare.deviance = {94};
+  EXPECT_TRUE(less(common, rare)) << "6 below the common cause";
+  rare.deviance = {93};
+  EXPECT_TRUE(less(rare, common)) << "7 below the common cause";
+  EXPECT_TRUE(differs_by_rarer_causes(rare.effects, common.effects));
+  EXPECT_FALSE(differs_by_rarer_causes(common.effects, rare.effects));
+  other.axis = "slew";
+  EXPECT_FALSE(differs_by_rarer_causes(rare.effects, common.effects)) << "another axis is no twin";
+}
+
 TEST_F(Compared, AnEffectInATenthOfTheBlocksIsSignificant) {
   for (std::size_t i = 0; i < kBlocks; i += 10) fitted.deviance[i] -= 20;
   EXPECT_TRUE(is_accepted());
