@@ -53,8 +53,8 @@ class RealtimeRuns {
   [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
                                 const experiment::Scenario& scenario);
 
-  /// After runs on a real crane: where the axes stand, if a drive whose position begins at `[start]` stands
-  /// elsewhere. The next program would measure from a wrong position. Empty: nothing to do.
+  /// After runs on a real crane: a warning that names each drive that does not stand at `[start]`, although
+  /// the next program would assume this position. Empty: all these drives stand at `[start]`.
   [[nodiscard]] std::string difference_from_start(const configuration::Rig& rig) const;
 
  private:

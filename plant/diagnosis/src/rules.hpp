@@ -45,7 +45,7 @@ inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
 inline constexpr Rule kRarerCause{"rarer_cause", 6.63, "1",
                                   "decrease of the deviance by which a rarer cause must exceed a more common "
                                   "one with nearly the same effect",
-                                  "99 % quantile of chi-square with one degree of freedom"};
+                                  "convention: 99 % quantile of chi-square with one degree of freedom"};
 
 // Confirmation on held-out runs.
 inline constexpr Rule kHeldOutWin{

@@ -21,8 +21,8 @@ namespace crane::diagnosis {
 /// Compares minus twice the log likelihood of the training data.
 [[nodiscard]] bool likelier_without_penalty(const Fitted& a, const Fitted& b);
 
-/// True if `rival` has, for each effect that `best` lacks, an effect of which `best` has the more common
-/// cause (Candidate::rarer_than).
+/// True if each effect of `rival` that `best` lacks has its more common cause (Candidate::rarer_than) in
+/// `best`, on the same axis.
 [[nodiscard]] bool differs_by_rarer_causes(const Effects& rival, const Effects& best);
 
 /// True when both have the same candidates; their values may differ.

@@ -1,6 +1,6 @@
 #pragma once
-/// Number of bridges that open a board. A program whose bridge has ended can thus find out whether its next
-/// bridge is also the next one on this board: only then do the axes still stand where its last run ended.
+/// Number of bridges that open a board. A program that starts several bridges, one after the other, detects
+/// by this number that another bridge has opened the board between two of them, and may have moved the axes.
 #include <atomic>
 #include <cstdint>
 #include <string>
