@@ -37,9 +37,9 @@ std::vector<std::uint8_t> sample(std::uint64_t number) {
   return bytes;
 }
 
-/// The key of a ledger is random, so the sets that the samples fall into are random too. An eighth sample in one
-/// of the 16 384 sets would replace the first. With 1000 samples (0.061 per set), the probability of this is
-/// 16 384 exp(-0.061) 0.061^8 / 8! = 7e-11.
+/// The key of a ledger is random, so the sets that the samples fall into are random too. An eighth sample in
+/// one of the 16 384 sets would replace the first. With 1000 samples (0.061 per set), the probability of this
+/// is 16 384 exp(-0.061) 0.061^8 / 8! = 7e-11.
 TEST(LedgerTest, ContainsExactlyTheEnteredSamples) {
   const auto ledger = Ledger::create();
   constexpr std::uint64_t kEntered = 1000;
