@@ -23,6 +23,13 @@ class StandIn {
 const stored = new Map();
 globalThis.document = { createElement: () => new StandIn() };
 globalThis.sessionStorage = { getItem: (key) => stored.get(key) ?? null, setItem: (key, value) => stored.set(key, value), removeItem: (key) => stored.delete(key) };
+/** Delivers at once to the other pages of the browser. */
+class Pages {
+  static all = new Set();
+  constructor() { Pages.all.add(this); }
+  postMessage(data) { for (const page of Pages.all) if (page !== this) page.onmessage?.({ data }); }
+}
+globalThis.BroadcastChannel = Pages;
 globalThis.setInterval = () => 0; // the desk renews its controls for as long as the page is open
 
 // The server generates coordinates.js (tests/dashboard/page_test.cpp); the desk does not use it.
@@ -58,6 +65,27 @@ test("a page that may operate needs the controls for all requests but the stops"
   const { estop, enabled } = buttonsOf(deskWith({ may_operate: true, may_stop: true, why_not: "" }));
   assert.equal(estop.disabled, false);
   assert.deepEqual(enabled, ["ask-stop"]);
+});
+
+test("a page without a connection offers only the requests that stop", () => {
+  const desk = deskWith({ may_operate: true, may_stop: true, why_not: "" });
+  stored.set("crane-seat", "key");
+  const operator = new Desk();
+  stored.delete("crane-seat");
+  operator.update({ about: desk.about, situation: desk.situation });
+  assert.ok(buttonsOf(operator).enabled.includes("ask-arm"));
+  operator.update({ lost: true });
+  assert.deepEqual(buttonsOf(operator).enabled, ["ask-stop", "ask-disarm"]);
+  assert.equal(buttonsOf(operator).estop.disabled, false);
+  assert.equal(operator.answerTo("move").reason, "the dashboard does not answer");
+});
+
+test("a duplicated tab does not take the controls of the first one", () => {
+  stored.set("crane-seat", "seat");
+  const first = new Desk(), duplicate = new Desk();
+  stored.delete("crane-seat");
+  assert.ok(first.mine);
+  assert.ok(!duplicate.mine);
 });
 
 test("a page that may not stop disables every button and says why", () => {

@@ -55,6 +55,7 @@ link.addEventListener("change", () => {
   find("link-state").dataset.state = link.state;
   find("link-state").textContent = { live: "live", lost: "connection lost" }[link.state] ?? "connecting";
   find("lost").hidden = link.state !== "lost";
+  desk.update({ lost: link.state === "lost" });
   if (link.state === "live") desk.load().then(() => { find("crane-name").textContent = desk.about.crane ?? "crane"; document.title = (desk.about.crane ?? "crane") + " – dashboard"; });
 });
 desk.addEventListener("change", () => drawSoftwareStop(desk, find("estop")));

@@ -6,14 +6,23 @@ const RENEW_MS = 3000;
 export class Desk extends EventTarget {
   about = { may_operate: false, may_stop: false, why_not: "" };
   situation = null;
+  lost = false; // no frame arrives: `situation` is old
   holder = null;
   waiting = new Set(); // requests without an answer yet
   seen = ""; // the newest crane/supervisor that this page has received
   #key = sessionStorage.getItem("crane-seat") ?? "";
   #token = sessionStorage.getItem("crane-token") ?? "";
+  #pages = new BroadcastChannel("crane-seat"); // the other pages of this browser
 
   constructor() {
     super();
+    // A duplicated tab also copies the key. The page that had it keeps the controls.
+    this.#pages.onmessage = ({ data: { asked, held } }) => {
+      if (!this.#key) return;
+      if (asked === this.#key) this.#pages.postMessage({ held: this.#key });
+      else if (held === this.#key) this.#keep(""), this.#changed();
+    };
+    if (this.#key) this.#pages.postMessage({ asked: this.#key });
     setInterval(() => { if (this.#key) this.#renew(); }, RENEW_MS);
   }
 
@@ -107,7 +116,9 @@ export class Desk extends EventTarget {
     this.dispatchEvent(new Event("message"));
   }
 
+  /** What the supervisor would answer now. While the connection is lost, only requests that stop are possible. */
   answerTo(request) {
+    if (this.lost && !URGENT.has(request)) return { accepted: false, reason: "the dashboard does not answer" };
     if (!this.situation?.heard) return { accepted: false, reason: "no sample of the supervisor arrives" };
     return this.situation.answers.find((answer) => answer.request === request) ?? { accepted: false, reason: "" };
   }

@@ -3,6 +3,8 @@
 import { Decoder, parseIdl } from "./cdr.js";
 
 const RETRY_MS = [200, 500, 1000, 2000];
+// The server sends a frame every 16 ms. A server that hangs or a cut link closes no socket.
+const LONGEST_SILENCE_MS = 1000, LOOK_MS = 200;
 
 export class Link extends EventTarget {
   #socket = null;
@@ -10,6 +12,7 @@ export class Link extends EventTarget {
   #listeners = new Map(); // topic -> Set of functions (sample)
   #channels = new Map(); // topic -> channel
   #idl = null;
+  #heard_ms = 0; // time of the newest frame
   decoders = new Map(); // topic -> Decoder
   state = "connecting"; // "live", "lost"
   ready = new Promise((known) => { this.known = known; }); // the channels are known
@@ -19,6 +22,7 @@ export class Link extends EventTarget {
     super();
     this.url = url;
     this.#connect();
+    setInterval(() => { if (performance.now() - this.#heard_ms > LONGEST_SILENCE_MS && this.state === "live") this.#change("lost"); }, LOOK_MS);
   }
 
   get topics() { return [...this.#channels.values()].filter((c) => c.encoding === "cdr").map((c) => c.topic.slice(1)); }
@@ -46,6 +50,7 @@ export class Link extends EventTarget {
     this.#socket.onopen = () => { this.#attempt = 0; };
     this.#socket.onmessage = ({ data }) => this.#take(data);
     this.#socket.onclose = () => {
+      this.#channels = new Map();
       this.#change("lost");
       setTimeout(() => this.#connect(), RETRY_MS[Math.min(this.#attempt++, RETRY_MS.length - 1)]);
     };
@@ -68,6 +73,8 @@ export class Link extends EventTarget {
 
   #take(frame) {
     this.bytes += frame.byteLength;
+    this.#heard_ms = performance.now();
+    if (this.state === "lost" && this.#channels.size > 0) this.#change("live");
     const view = new DataView(frame);
     for (let at = 0; at + 5 <= frame.byteLength;) {
       const kind = view.getUint8(at), length = view.getUint32(at + 1, true);

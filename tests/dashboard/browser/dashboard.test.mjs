@@ -189,6 +189,16 @@ test("a reload keeps the controls", async () => {
   await until("still the operator", async () => /You operate/.test(await page.textContent("#seat")));
 });
 
+test("while the dashboard hangs, the page says that its values are old and offers no motion", async () => {
+  dashboard.child.kill("SIGSTOP");
+  await until("the loss is shown", () => page.isVisible("#lost"));
+  assert.match(await page.textContent("#link-state"), /lost/);
+  await show("operate");
+  assert.ok(await page.isDisabled("#ask-arm") && await page.isDisabled("#ask-home"));
+  dashboard.child.kill("SIGCONT");
+  await until("live again", async () => !(await page.isVisible("#lost")));
+});
+
 test("after a lost dashboard the page says so, and connects again by itself", async () => {
   const port = Number(new URL(dashboard.address).port);
   await end(dashboard.child, "SIGKILL");
