@@ -56,9 +56,9 @@ std::string problem_of(const StickRanges& ranges, const std::array<bool, 3>& sel
 GamepadLaw::GamepadLaw(const StickRanges& ranges, const std::array<bool, 3>& selected, bool micro)
     : ranges_{ranges}, selected_{selected}, micro_{micro} {}
 
-void GamepadLaw::take_button(std::uint16_t code, int value) {
+bool GamepadLaw::take_button(std::uint16_t code, int value) {
   constexpr int kReleased = 0, kPressed = 1;  // 2: repetition by the kernel
-  if (value != kReleased && value != kPressed) return;
+  if (value != kReleased && value != kPressed) return false;
   const bool pressed = value == kPressed;
   if (code == BTN_TL) {
     dead_man_pressed_ = pressed;
@@ -68,16 +68,23 @@ void GamepadLaw::take_button(std::uint16_t code, int value) {
     micro_pressed_ = pressed;
   } else if (code == BTN_SOUTH && pressed && dead_man_pressed_) {
     returns_ = true;
+  } else {
+    return false;
   }
+  return true;
+}
+
+bool GamepadLaw::take_stick(std::uint16_t code, int value) {
+  for (std::size_t i = 0; i < ranges_.size(); ++i)
+    if (kCodes[i] == code) return std::exchange(ranges_[i].value, value) != value && selected_[i];
+  return false;
 }
 
 void GamepadLaw::take(const GamepadEvent& event, double now_s) {
   if (silent(now_s)) dead_man_pressed_ = centred_ = returns_ = false;
-  last_event_s_ = now_s;
-  if (event.type == EV_KEY) take_button(event.code, event.value);
-  if (event.type == EV_ABS)
-    for (std::size_t i = 0; i < ranges_.size(); ++i)
-      if (kCodes[i] == event.code) ranges_[i].value = event.value;
+  if ((event.type == EV_KEY && take_button(event.code, event.value)) ||
+      (event.type == EV_ABS && take_stick(event.code, event.value)))
+    last_event_s_ = now_s;
   const auto now = deflection();
   if (dead_man_pressed_ && std::ranges::all_of(now, [](double share) { return share == 0; })) centred_ = true;
 }

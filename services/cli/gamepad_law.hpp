@@ -73,14 +73,17 @@ class GamepadLaw {
 
  private:
   [[nodiscard]] bool silent(double now_s) const { return now_s - last_event_s_ > kSilence_s; }
-  void take_button(std::uint16_t code, int value);
+  /// @return whether the operator has pressed or released a button of this law
+  bool take_button(std::uint16_t code, int value);
+  /// @return whether a selected stick has moved
+  bool take_stick(std::uint16_t code, int value);
 
   StickRanges ranges_;
   std::array<bool, 3> selected_;
   bool micro_;                  ///< micro-speed also without BTN_TR
   bool micro_pressed_ = false;  ///< true: BTN_TR is pressed
   bool dead_man_pressed_ = false, centred_ = false, returns_ = false;
-  double last_event_s_ = 0;  ///< time of the last event
+  double last_event_s_ = 0;  ///< time of the last movement of a button or selected stick
 };
 
 }  // namespace crane::cli

@@ -33,9 +33,13 @@ ordered_json json_of(const msg::SupervisorStatus& status) {
 void TopModel::add(const observation::SamplePtr& sample) {
   traffic_.add(*sample);
   faults_.add(*sample);
-  if (msg::SupervisorStatus status; decode(topics::supervisor, *sample, status)) supervisor_ = status;
+  if (msg::SupervisorStatus status; decode(topics::supervisor, *sample, status)) {
+    supervisor_ = status;
+    supervisor_ns_ = sample->arrival_time_ns;
+  }
   if (msg::State state; decode(topics::state, *sample, state)) {
     state_ = state;
+    state_ns_ = sample->arrival_time_ns;
     keep_largest(radial_, state.swing_radial_rad, state.header.tick);
     keep_largest(tangential_, state.swing_tangential_rad, state.header.tick);
   }
@@ -63,9 +67,16 @@ bool TopModel::complete() const {
          std::ranges::all_of(nodes, [](const auto& node) { return node.second.tick_rate_hz.has_value(); });
 }
 
+std::int64_t TopModel::age_ns(std::int64_t now_ns) const {
+  return std::max(supervisor_ ? now_ns - supervisor_ns_ : 0, state_ ? now_ns - state_ns_ : 0);
+}
+
 ordered_json TopModel::json(std::int64_t now_ns) const {
   ordered_json result{{"supervisor", nullptr}, {"latch", nullptr}, {"tick", nullptr}};
-  if (supervisor_) result["supervisor"] = json_of(*supervisor_);
+  if (supervisor_) {
+    result["supervisor"] = json_of(*supervisor_);
+    result["supervisor"]["age_s"] = static_cast<double>(now_ns - supervisor_ns_) * 1e-9;
+  }
   if (state_) {
     result["latch"] = bridge::name_of(static_cast<bridge::Reason>(state_->latch_reason));
     result["tick"] = state_->header.tick;

@@ -31,13 +31,15 @@ class TopModel {
   [[nodiscard]] const observation::FaultTimeline& faults() const { return faults_; }
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
   [[nodiscard]] const std::optional<msg::State>& state() const { return state_; }
+  /// Time since the newest crane/supervisor or crane/state, the older of both; 0 without either.
+  [[nodiscard]] std::int64_t age_ns(std::int64_t now_ns) const;
   /// Largest swings since the start.
   [[nodiscard]] const Swing& radial() const { return radial_; }
   [[nodiscard]] const Swing& tangential() const { return tangential_; }
   /// One value for each window, the newest last: p99 of the delay in us; without delay the rate in Hz.
   [[nodiscard]] const std::deque<double>& trend(std::size_t topic) const { return trends_[topic]; }
 
-  /// {"supervisor": {"state", "cause", "remedy"} or null, "latch", "tick", "largest_swing", "faults",
+  /// {"supervisor": {"state", "cause", "remedy", "age_s"} or null, "latch", "tick", "largest_swing", "faults",
   /// "topics", "processes"}
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
@@ -47,6 +49,7 @@ class TopModel {
   observation::History no_history_{0};  ///< the terminal shows no data around a fault
   std::optional<msg::SupervisorStatus> supervisor_;
   std::optional<msg::State> state_;
+  std::int64_t supervisor_ns_ = 0, state_ns_ = 0;  ///< monotonic arrival
   Swing radial_, tangential_;
   std::vector<std::deque<double>> trends_{topics::kAll.size()};
   std::size_t heard_topics_ = 0;  ///< at the end of the last window

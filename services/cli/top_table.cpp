@@ -67,11 +67,15 @@ std::string or_dash(const std::optional<double>& value, int digits) {
   return value ? fixed(*value, digits) : "-";
 }
 
-std::string head(const TopModel& model, const std::string& title, std::int64_t log_now_ns) {
+std::string head(const TopModel& model, const std::string& title, std::int64_t now_ns,
+                 std::int64_t log_now_ns) {
   std::ostringstream out;
   out << title;
   if (model.state()) out << "  tick " << model.state()->header.tick;
   out << '\n';
+  if (const auto age_ns = model.age_ns(now_ns); age_ns > observation::kStale_ns)
+    out << "OLD         no sample for " << fixed(static_cast<double>(age_ns) * 1e-9, 0)
+        << " s: the crane may be in another state; see crane doctor\n";
   if (model.supervisor())
     print_supervisor(out, *model.supervisor());
   else
@@ -168,7 +172,7 @@ std::string top_text(const TopModel& model, const TopView& view, std::int64_t no
   const auto width = view.size ? static_cast<std::size_t>(view.size->columns) : kUnlimited;
   std::string text;
   for (const auto shown : {Shown::all, Shown::heard, Shown::loop}) {
-    text = head(model, view.title, log_now_ns) + '\n' + processes(model, now_ns).text(width) + '\n' +
+    text = head(model, view.title, now_ns, log_now_ns) + '\n' + processes(model, now_ns).text(width) + '\n' +
            topics_of(model, view.trends, shown).text(width);
     if (!view.size || std::ranges::count(text, '\n') <= view.size->rows) break;
   }

@@ -12,9 +12,6 @@ namespace crane::dashboard {
 
 class Situation {
  public:
-  /// Age at which the newest sample becomes invalid; the supervisor publishes every tick.
-  static constexpr std::int64_t kSilent_ns = 1'000'000'000;
-
   void add(const observation::Sample& sample);
   /// JSON of the situation. Two texts differ only when information for the operator differs.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
@@ -22,9 +19,9 @@ class Situation {
   /// @param id  "EPOCH-TICK" of a crane/supervisor: a tick alone would also name a tick of another run
   /// @return its header; nothing when it has not arrived within runtime::kRequestLife_ns
   [[nodiscard]] std::optional<msg::Header> status_of(std::string_view id, std::int64_t now_ns) const;
-  /// @return true when a crane/supervisor has arrived within kSilent_ns
+  /// @return true when a crane/supervisor has arrived within observation::kStale_ns
   [[nodiscard]] bool hears_supervisor(std::int64_t now_ns) const {
-    return supervisor_ && now_ns - supervisor_ns_ <= kSilent_ns;
+    return supervisor_ && now_ns - supervisor_ns_ <= observation::kStale_ns;
   }
 
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }

@@ -86,6 +86,19 @@ TEST_F(HeldGamepad, IsReleasedByASilenceUntilTheButtonIsPressedAgain) {
   EXPECT_TRUE(law_.engaged(kLater_s + 2));
 }
 
+/// Repetitions by the kernel, synchronisations, scan codes, axes without a use and reports without a change.
+TEST_F(HeldGamepad, IsNotKeptByEventsThatTheOperatorDoesNotCause) {
+  law_.take(stick(ABS_X, kFar), 1.1);
+  for (double t_s = 1.2; t_s < 1.2 + GamepadLaw::kSilence_s; t_s += 0.1) {
+    law_.take(button(BTN_TL, 2), t_s);
+    law_.take({EV_SYN, SYN_REPORT, 0}, t_s);
+    law_.take({EV_MSC, MSC_SCAN, 1}, t_s);
+    law_.take(stick(ABS_Z, static_cast<int>(10 * t_s)), t_s);
+    law_.take(stick(ABS_X, kFar), t_s);
+  }
+  EXPECT_FALSE(law_.engaged(1.2 + GamepadLaw::kSilence_s));
+}
+
 TEST_F(HeldGamepad, ReturnsOnlyWhileTheButtonIsHeldAndReleasesTheSticks) {
   law_.take(stick(ABS_X, kFar), 1.1);
   law_.take(button(BTN_SOUTH, kDown), 1.2);

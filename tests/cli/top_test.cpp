@@ -72,6 +72,14 @@ TEST_F(TopTest, IsCompleteAfterAWholeWindowAndTwoReports) {
   EXPECT_TRUE(model_.complete());
 }
 
+TEST_F(TopTest, SaysThatTheStateIsOldWhenTheSamplesEnd) {
+  run(305);
+  EXPECT_THAT(text(), Not(HasSubstr("OLD")));
+  now_ns_ += 16 * kSecond_ns;
+  EXPECT_THAT(text(), HasSubstr("\nOLD         no sample for 16 s"));
+  EXPECT_NEAR(model_.json(now_ns_)["supervisor"]["age_s"].get<double>(), 16, 1e-6);
+}
+
 TEST_F(TopTest, ShowsRatesLossesDelaysAndTicksOfProcesses) {
   run(405);
   const auto table = text();

@@ -189,6 +189,40 @@ std::string refusal(const std::function<void()>& action) {
   return "accepted";
 }
 
+/// A card that can lose its power: then, all lines have the same level.
+struct RemovableCard final : PortIo {
+  explicit RemovableCard(PortIo& ports) : card{ports} {}
+  PortIo& card;
+  std::optional<std::uint8_t> level;
+  std::uint8_t in_8(std::uint16_t port) noexcept override { return level ? *level : card.in_8(port); }
+  std::uint16_t in_16(std::uint16_t port) noexcept override { return card.in_16(port); }
+  void out_8(std::uint16_t port, std::uint8_t value) noexcept override {
+    if (!level) card.out_8(port, value);
+  }
+  void out_16(std::uint16_t port, std::uint16_t value) noexcept override {
+    if (!level) card.out_16(port, value);
+  }
+};
+
+TEST(ServoToGo, ThatLosesItsPowerIsNamedAtTheNextReadingAtTheLatest) {
+  for (const std::uint8_t level : {0x00, 0xFF})
+    for (int readings = 0; readings < 9; ++readings) {
+      Plug plug;
+      CardState state;
+      EmulatedServoToGo emulated{0x200, state, plug};
+      RemovableCard card{emulated};
+      std::vector<Access> log;
+      ServoToGo board{emulated_rig(), std::make_unique<Tapped>(card, log)};
+      for (int i = 0; i < readings; ++i) std::ignore = board.read();
+      card.level = level;
+      EXPECT_THAT(refusal([&] {
+                    std::ignore = board.read();
+                    std::ignore = board.read();
+                  }),
+                  AllOf(HasSubstr("at 0x200 does not answer"), HasSubstr("power")));
+    }
+}
+
 TEST(ServoToGo, AMissingBoardIsNamedAndNothingIsWritten) {
   EmptySlot slot;
   std::vector<Access> log;

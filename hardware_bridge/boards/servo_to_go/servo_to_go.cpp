@@ -72,6 +72,18 @@ int ServoToGo::recognised_model() const {
                    "): check the card, its address jumpers and base_address in [wiring] of the rig file");
 }
 
+/// The next reading contains the next index and its bit of the serial number. Without a card, all readings
+/// are the same.
+void ServoToGo::check_presence() {
+  const unsigned reading = ports_->in_8(at(kBoardTest)), index = (reading >> 4) & 7U;
+  const unsigned serial = model_ == 1 ? kSerialModel1 : kSerialModel2;
+  const bool answers = index != test_index_ && (reading >> 7) == ((serial >> index) & 1U);
+  test_index_ = index;
+  if (answers) return;
+  throw BoardError("the Servo-to-Go board at " + hex(base_) + " does not answer (board test reads " +
+                   hex(reading) + "): check that the card sits in its slot and has power");
+}
+
 /// A running timer would latch the counters while the driver reads their bytes.
 void ServoToGo::stop_timer() noexcept {
   ports_->out_8(at(kTimerCommand), kTimerStop);
@@ -130,6 +142,7 @@ Inputs ServoToGo::read() {
   lines_.read(input_levels(), inputs);
   for (std::size_t i = 0; i < kCounters; ++i)
     if (counters_[i].used) inputs.raw_counts[i] = latched(counters_[i].channel);
+  check_presence();  // last, so that all values above are those of a card
   return inputs;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "crane/boards/port_io.hpp"
 #include "crane/boards/rig_lines.hpp"
@@ -27,6 +28,7 @@ class ServoToGo final : public Board {
   ServoToGo& operator=(const ServoToGo&) = delete;
 
   [[nodiscard]] std::string_view name() const override;
+  /// @throws BoardError when the card does not answer: it was removed or lost its power
   [[nodiscard]] Inputs read() override;
   std::array<double, kDrives> write(const Outputs& outputs) override;
   void make_safe() noexcept override;
@@ -43,6 +45,7 @@ class ServoToGo final : public Board {
     return static_cast<std::uint16_t>(base_ + offset);
   }
   [[nodiscard]] int recognised_model() const;
+  void check_presence();
   void stop_timer() noexcept;
   void start_counter(const Counter& counter);
   /// Writes the low 24 bits of `counts`.
@@ -59,6 +62,7 @@ class ServoToGo final : public Board {
   std::array<Counter, kCounters> counters_{};
   std::array<bool, 4> pair_used_{};  ///< by channel / 2
   int model_;
+  std::optional<unsigned> test_index_;  ///< of the last board test
 };
 
 }  // namespace crane::bridge
