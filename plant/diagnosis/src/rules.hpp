@@ -67,7 +67,9 @@ inline constexpr Rule kWorseOverWholeRuns{"worse_over_whole_runs", 1.25, "1",
                                           "read off examples"};
 inline constexpr Rule kStillFollowed{
     "still_followed", 0.5, "1",
-    "minimum share of a drive's motion that the model follows, extended / base model", "read off examples"};
+    "minimum share of a drive's motion over whole runs that the model follows, extended / base model; the "
+    "comparison needs a base model that follows this share of the measured motion",
+    "read off examples"};
 
 // Residual that is too large or predictable.
 inline constexpr Rule kWorstLoss{"worst_loss", 1.25, "1",
