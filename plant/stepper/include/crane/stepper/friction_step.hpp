@@ -22,20 +22,30 @@ struct FrictionStep {
   double friction = 0;  ///< mean over the step [V]
 };
 
-/// Root v of the increasing function v + k f(v) - c.
+/// Root v of the increasing function v + k f(v) - c, with an error of at most 1e-9.
 /// @param near  initial guess of v
+/// @param friction_near  f(near)
 template <class Friction>
-double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
+double implicit_speed(double c, double k, Friction&& friction, double near, double friction_near) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
+  /// Share of the excess by which the speed first changes. The slope of the function is at least 1, and about
+  /// 100 where dry friction holds an axis.
+  constexpr double kFirstShare = 0.01;
+  constexpr int kSecants = 5;
   if (!(std::abs(c) < kDivergedSpeed && std::abs(near) < kDivergedSpeed)) return c;
   // Where the friction increases, the slope of the function is at least 1: |excess| bounds the error of v.
-  const auto excess = [&](double v) {
-    const double found = v + k * friction(v) - c;
-    return std::abs(found) < kExact ? 0.0 : found;
-  };
-  double low = near, high = near, at_low = excess(near), at_high = at_low;
-  if (at_low == 0) return near;
-  if (at_high > 0) {
+  const auto excess = [&](double v) { return v + k * friction(v) - c; };
+  const double at_near = near + k * friction_near - c;
+  if (std::abs(at_near) < kExact) return near;
+  double before = near, at_before = at_near, now = near - kFirstShare * at_near;
+  for (int secant = 0; secant < kSecants; ++secant) {
+    const double at_now = excess(now), slope = (at_now - at_before) / (now - before);
+    if (std::abs(at_now) < kExact) return now;
+    if (!(slope >= 1)) break;
+    before = now, at_before = at_now, now -= at_now / slope;
+  }
+  double low = near, high = near, at_low = at_near, at_high = at_near;
+  if (at_near > 0) {
     low = near - kNear, at_low = excess(low);
     if (at_low > 0)
       high = low, at_high = at_low, low = std::min({c, 0.0, near}) - kImplicitSpeed, at_low = excess(low);
@@ -54,6 +64,12 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
   return 0.5 * (root.first + root.second);
 }
 
+/// The same with the initial guess 0.
+template <class Friction>
+double implicit_speed(double c, double k, Friction&& friction) {
+  return implicit_speed(c, k, friction, 0.0, friction(0.0));
+}
+
 /// @param v         speed at the start of the step [m/s or rad/s]
 /// @param a         acceleration without friction [m/s2 or rad/s2]
 /// @param g         deceleration per volt of friction [m/s2 or rad/s2 per V]
@@ -61,19 +77,18 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
 /// @param friction  friction at a speed [V]
 template <class Friction>
 FrictionStep friction_step(double v, double a, double g, double h, Friction&& friction) {
+  const double at_start = friction(v), slope = a - g * at_start;
   if (std::abs(v) > kImplicitSpeed) {
-    const double mean = v + 0.5 * h * (a - g * friction(v));
-    const double f = friction(v + 0.5 * h * (a - g * friction(mean))), end = v + h * (a - g * f);
+    const double f = friction(v + 0.5 * h * slope), end = v + h * (a - g * f);
     if (end * v > 0 && std::abs(end) > kImplicitSpeed) return {end, 0.5 * h * (v + end), f};
   }
-  const double slope = a - g * friction(v);
   if (std::abs(v) > kRestSpeed && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
     const double remaining = h + v / slope;  // part of the step after the standstill [s]
     const double after = implicit_speed(remaining * a, remaining * g, friction);
     const double mean_friction = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
     return {after, 0.5 * v * (h - remaining) + 0.5 * after * remaining, mean_friction};
   }
-  const double end = implicit_speed(v + h * a, h * g, friction, v);
+  const double end = implicit_speed(v + h * a, h * g, friction, v, at_start);
   const double mean_friction = h * g != 0 ? (v + h * a - end) / (h * g) : 0;
   return {end, 0.5 * h * (v + end), mean_friction};
 }
