@@ -17,10 +17,10 @@ bool acts_on(const Effects& effects, const std::string& column) {
   });
 }
 
-/// True if the base model follows at least kStillFollowed of the motion over whole runs, and the extended model
-/// follows less than kStillFollowed of what the base model follows. A friction that holds the axis explains
-/// nothing. In open loop, an unknown force of a drive is integrated twice: a base model that follows less
-/// would follow more or less by chance.
+/// True if the base model follows at least kStillFollowed of the motion over whole runs, and the extended
+/// model follows less than kStillFollowed of what the base model follows. A friction that holds the axis
+/// explains nothing. In open loop, an unknown force of a drive is integrated twice: a base model that follows
+/// less would follow more or less by chance.
 bool loses_motion(const HeldOut& held_out, const std::string& column) {
   const auto squares = [&column](const std::map<std::string, double>& rms) {
     const auto found = rms.find(column);
