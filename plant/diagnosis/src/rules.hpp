@@ -80,7 +80,7 @@ inline constexpr Rule kNotFollowed{"not_followed", 0.4, "1",
                                    "read off examples"};
 inline constexpr Rule kDriveError{
     "drive_error", 3, "standard uncertainties",
-    "error of a drive in a window above which the window counts as not explained; the verdict is not none if "
+    "error of a drive in a window above which the window counts as not explained; the verdict is unknown if "
     "significantly many windows are not explained",
     "coverage factor 3 of a normal error: 0.27 % of the windows"};
 inline constexpr Rule kSwings{"swings", 0.01, "m or rad",

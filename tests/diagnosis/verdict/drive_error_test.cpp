@@ -51,13 +51,28 @@ TEST(DriveErrorInWindows, HasTheBinomialPValue) {
 }
 
 /// Without the term of a limited rate and the terms that imitate it, the cause is unknown.
-TEST(DriveErrorInWindows, MakesTheVerdictUnknown) {
+Diagnosis without_limited_rate(const strange::Axis& axis) {
   Request request;
   request.most_effects = 1;
   request.excluded = {"command_rate_limit", "command_saturation", "actuator_lag", "command_delay",
                       "backlash"};
-  const Diagnosis found = diagnose(rig_of_axis(), runs_of_axis({.rate_vps = 100}, 6),
-                                   runs_of_axis({.rate_vps = 100}, 7), request);
+  return diagnose(rig_of_axis(), inaccurate_runs_of(axis, 6), inaccurate_runs_of(axis, 7), request);
+}
+
+TEST(DriveErrorInWindows, MakesTheVerdictUnknown) {
+  strange::Axis axis;
+  axis.amplifier.rate_vps = 100;
+  const Diagnosis found = without_limited_rate(axis);
+  EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
+  EXPECT_NE(found.sentence.find("noise and accuracy of the rig file explain"), std::string::npos)
+      << found.sentence;
+}
+
+TEST(DriveErrorInWindows, MakesTheVerdictUnknownAlsoBesideACause) {
+  strange::Axis axis;
+  axis.amplifier.rate_vps = 100;
+  axis.coulomb_v *= 1.6;
+  const Diagnosis found = without_limited_rate(axis);
   EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
   EXPECT_NE(found.sentence.find("noise and accuracy of the rig file explain"), std::string::npos)
       << found.sentence;

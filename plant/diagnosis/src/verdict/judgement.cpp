@@ -130,8 +130,10 @@ class Judgement {
   /// the noise and the accuracy of the rig file do not explain. @return description of the missing part;
   /// empty: nothing is missing
   [[nodiscard]] std::string not_followed() const {
-    const std::string drive = causes_.empty() && drive_error_ ? drive_error_->description : "";
-    return drive.empty() ? swing_not_followed() : drive;
+    const std::optional<SignificantDriveError> error =
+        causes_.empty() ? drive_error_
+                        : accuracy_.drive_error_beyond(study_, holding(study_.with(best_.effects)));
+    return error ? error->description : swing_not_followed();
   }
 
   [[nodiscard]] std::string swing_not_followed() const {
