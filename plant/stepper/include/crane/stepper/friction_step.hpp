@@ -80,8 +80,7 @@ FrictionStep friction_step(double v, double a, double g, double h, Friction&& fr
   const double at_start = friction(v), slope = a - g * at_start;
   if (std::abs(v) > kImplicitSpeed) {
     const double middle = v + 0.5 * h * slope, f = friction(middle), end = v + h * (a - g * f);
-    if (middle * v > 0 && end * v > 0 && std::abs(end) > kImplicitSpeed)
-      return {end, 0.5 * h * (v + end), f};
+    if (middle * v > 0 && end * v > 0 && std::abs(end) > kImplicitSpeed) return {end, 0.5 * h * (v + end), f};
   }
   if (std::abs(v) > kRestSpeed && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
     const double remaining = h + v / slope;  // part of the step after the standstill [s]
