@@ -182,9 +182,54 @@ INSTANTIATE_TEST_SUITE_P(
         Corruption{"no_load", "[plant]", "load_mass_kg = 2.0", "load_mass_kg = -1", "must be in [0"},
         Corruption{"factor", "[controller.friction.slew]", "factor = 1.0", "factor = 2.0",
                    "must be in [0, 1.5]"},
+        Corruption{"slew_limit_in_degrees", "[drive.slew]", "high_limit_rad = 3.490658503988659",
+                   "high_limit_rad = 200", "must be at most 5 turns (31.4 rad) from 0: are these degrees?"},
+        Corruption{"trolley_gain", "[plant]", "trolley_gain_mps2pv = 2.0", "trolley_gain_mps2pv = 1000",
+                   "times volt_limit_v (10 V) must be at most 1000 m/s²"},
+        Corruption{"slew_gain", "[plant]", "slew_gain_radps2pv = 1.14", "slew_gain_radps2pv = 1000",
+                   "times volt_limit_v (10 V) must be at most 1000 rad/s²"},
+        Corruption{"hoist_gain", "[plant]", "hoist_gain_mpspv = 0.05", "hoist_gain_mpspv = 1000",
+                   "times volt_limit_v (10 V) must be at most 100 m/s"},
+        Corruption{"believed_gain", "[controller]", "name = \"gain_scheduling_partial\"",
+                   "believes.trolley_gain_mps2pv = 1000\nname = \"none\"",
+                   "times volt_limit_v (10 V) must be at most 1000 m/s²"},
+        Corruption{"brake", "[drive.slew]", "brake_deceleration_radps2 = 11.0",
+                   "brake_deceleration_radps2 = 1e9", "must be at most 1000 rad/s²"},
+        Corruption{"volt_rate", "[drive.hoist]", "volt_rate_limit_vps = 1000.0", "volt_rate_limit_vps = 0.01",
+                   "must be at least 2.5 V/s"},
+        Corruption{"tracking_gain", "[controller]", "tracking_derivative = 20.0",
+                   "tracking_derivative = 1000.0", "would correct 5 times the error in one tick"},
+        Corruption{"idle_lock", "[limits]", "idle_lock_s = 60.0", "idle_lock_s = 1e-9",
+                   "must be at least 0.5 s"},
         Corruption{"slew_friction_unit", "[controller.friction.slew]", "viscous_positive_vsprad",
                    "viscous_positive_vspm", "unit must be vsprad"}),
     [](const auto& entry) { return std::string(entry.param.name); });
+
+/// drive_friction is the whole friction of a drive. The other terms are corrections, which may add up.
+TEST(RigFile, RefusesASecondFrictionOfADrive) {
+  const auto problems_with = [](const std::string& name, const std::string& axis) {
+    ChangedTower tower;
+    tower.change("[plant]", "[drive.trolley]",
+                 "[[model.terms]]\nname = \"" + name + "\"\naxis = \"" + axis + "\"\n[drive.trolley]");
+    return problems_of(tower.text());
+  };
+  EXPECT_THAT(
+      problems_with("drive_friction", "trolley"),
+      ElementsAre(testing::HasSubstr("must not be repeated: an earlier term has this name and axis")));
+  EXPECT_THAT(problems_with("drive_friction", "hoist"), IsEmpty());
+  EXPECT_THAT(problems_with("coulomb_friction", "trolley"), IsEmpty());
+}
+
+/// The controllers of a fast rig use gains that a slow rig cannot: the bound follows from the period.
+TEST(RigFile, RefusesAGainThatDivergesAtThePeriodOfTheRig) {
+  ChangedTower tower;
+  tower.change("name", "period_s = 0.01", "period_s = 0.1")
+      .change("[controller]", "hoist_proportional_ps = 2.0", "hoist_proportional_ps = 19.9");
+  EXPECT_THAT(problems_of(tower.text()), testing::Not(testing::Contains(testing::HasSubstr("hoist_prop"))));
+  tower.change("[controller]", "hoist_proportional_ps = 19.9", "hoist_proportional_ps = 20.9");
+  EXPECT_THAT(problems_of(tower.text()),
+              testing::Contains(testing::HasSubstr("the cable loop would correct 2.1 times the error")));
+}
 
 TEST(RigFile, ReportsAMissingSectionOnce) {
   EXPECT_THAT(problems_of("name = 'x'\nkind = 'tower'\n"),

@@ -41,6 +41,7 @@ void read_frictions(TomlTable& controller, Rig& rig) {
 /// Checks between the controller, its design and the kind of rig.
 void check_controller(TomlTable& table, const Rig& rig) {
   for (const auto& [key, value, rule] : control::contradictions(rig.design)) table.problem(key, rule);
+  check_plausible_loops(table, rig.design);
   if (!rig.carries_load() && rig.planning.shaping != control::Shaping::none)
     table.problem("shaper", "must be none: a drive_axis carries no load");
   const auto* controller = control::find_controller(rig.controller);
@@ -60,6 +61,7 @@ void read_controller(TomlTable& root, Rig& rig) {
   read_section(table, control::kDesignFields, rig.design, &rig);
   TomlTable believes = table.table("believes");
   read_section(believes, plant::kParameterFields, rig.design.crane, nullptr);
+  check_plausible_gains(believes, rig.design.crane, rig);
   read_frictions(table, rig);
   check_controller(table, rig);
 }

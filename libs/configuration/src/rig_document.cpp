@@ -2,6 +2,7 @@
 
 #include "crane/configuration/rig_fields.hpp"
 #include "crane/fields/shortest.hpp"
+#include "rig_sections.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
@@ -127,7 +128,8 @@ std::vector<SectionTable> section_tables() {
           section_table("clearance", control::kClearanceFields),
           section_table("controller", kControllerFields, kPlanningFields, control::kDesignFields),
           section_table("controller.friction", control::kFrictionFields),
-          section_table("adaptation", control::kAdaptationFields)};
+          section_table("adaptation", control::kAdaptationFields),
+          {"implausible values", implausible_values()}};
 }
 
 std::string with_section_tables(const std::string& document) {

@@ -44,6 +44,7 @@ Drive read_drive(TomlTable& table, const plant::Coordinate& axis, const Rig& rig
   read_section(table, control::kDriveLimitFields, drive, &rig, axis.unit);
   check_sign(table, drive.sign);
   check_drive(table, axis, drive, rig.period_s);
+  check_plausible_drive(table, axis, drive);
   return drive;
 }
 

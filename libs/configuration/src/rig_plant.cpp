@@ -38,6 +38,7 @@ void read_plant(TomlTable& root, Rig& rig) {
   if (!rig.carries_load() && rig.plant.load_mass_kg > 0) {
     table.problem("load_mass_kg", "must be 0: a drive_axis carries no load");
   }
+  check_plausible_gains(table, rig.plant, rig);
 }
 
 void read_terms(TomlTable& root, Rig& rig) {
@@ -47,6 +48,7 @@ void read_terms(TomlTable& root, Rig& rig) {
     term.name = table.choice("name", term_names());
     if (const plant::TermKind* kind = plant::find_term(term.name)) {
       read_term(table, *kind, rig, term);
+      check_repeated_term(table, rig.terms, term);
     } else {
       table.ignore_unknown();  // the wrong name is reported; its parameters are unknown
     }

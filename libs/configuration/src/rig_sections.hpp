@@ -23,6 +23,17 @@ void check_unique(TomlTable& table, std::string_view key, int channel, std::vect
 /// Reports a value outside the range. NaN is ignored, because the reader has reported it.
 void check_range(TomlTable& table, std::string_view key, double value, const Range& range);
 
+// Plausibility: refuse values that no crane has (rig_plausibility.cpp). The table is that of the section.
+void check_plausible_drive(TomlTable& table, const plant::Coordinate& axis, const Drive& drive);
+/// @param crane  [plant] or [controller.believes]
+void check_plausible_gains(TomlTable& table, const plant::Parameters& crane, const Rig& rig);
+void check_plausible_loops(TomlTable& table, const control::Design& design);
+void check_plausible_limits(TomlTable& table, const control::OperatingLimits& limits);
+void check_repeated_term(TomlTable& table, const std::vector<plant::TermSetting>& earlier,
+                         const plant::TermSetting& term);
+/// The table of these rules for docs/rig_file.md.
+[[nodiscard]] std::string implausible_values();
+
 // Order of the calls: later sections are checked against earlier ones.
 void read_drives(TomlTable& root, Rig& rig);
 void read_encoders(TomlTable& root, Rig& rig);
