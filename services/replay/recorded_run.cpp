@@ -47,9 +47,8 @@ RecordedRun::RecordedRun(const std::filesystem::path& file)
     : file_{file.string()}, reader_{file}, origin_{origin_of(reader_)} {
   std::vector<std::string> problems;
   const auto refuse = [&](const std::string& reason) { problems.push_back(file_ + ": " + reason); };
-  if (const auto version = recording::messages_version(reader_); version != crane_MESSAGES_VERSION)
-    refuse("messages of version " + std::to_string(version.value_or(1)) + ", this program has version " +
-           std::to_string(crane_MESSAGES_VERSION));
+  const auto difference = recording::version_difference(recording::messages_version(reader_));
+  if (!difference.empty()) refuse(difference);
   // The metadata of `crane run` state clock and controller; the metadata of a recorder do not.
   if (problems.empty() && !origin_.contains("clock")) arrivals_.emplace(reader_);
   if (arrivals_)

@@ -125,6 +125,20 @@ TEST(RunTable, IsRefusedForMessagesOfAnotherVersionWithBothVersions) {
   }
 }
 
+/// A damaged schema may lose the constant: the text must not show a default that equals the own version.
+TEST(VersionDifference, ShowsTwoDifferentTexts) {
+  for (const std::uint32_t own : {1U, 2U}) {
+    EXPECT_EQ(version_difference(own, own), "");
+    EXPECT_EQ(version_difference(3, own),
+              "messages of version 3, this program reads version " + std::to_string(own));
+    EXPECT_EQ(
+        version_difference(std::nullopt, own),
+        "messages without a version (their schema has no readable MESSAGES_VERSION), this program reads "
+        "version " +
+            std::to_string(own));
+  }
+}
+
 TEST(RunTable, ReportsAPayloadThatDoesNotFitItsSchema) {
   const TemporaryDirectory directory;
   McapWriter writer{directory / "a.mcap"};

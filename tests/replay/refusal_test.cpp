@@ -64,6 +64,19 @@ TEST_F(RefusedRecording, OfProgramsThatDidNotPublishWhatTheSupervisorAccepted) {
   EXPECT_NE(reason.find("crane/accepted_jog: no such topic"), std::string::npos) << reason;
 }
 
+TEST_F(RefusedRecording, WithASchemaThatHasLostItsVersion) {
+  const auto file = directory_ / "damaged.mcap";
+  recording::McapWriter writer{file};
+  std::string text{topics::idl_text()};
+  const std::string constant = "uint32 MESSAGES_VERSION";
+  text[text.find(constant) + constant.size() - 1] ^= 1;
+  const auto& node = topics::node.description;
+  (void)writer.channel(writer.schema(std::string{node.type}, "omgidl", text), std::string{node.name}, "cdr");
+  writer.close();
+  const auto reason = reason_of(file);
+  EXPECT_NE(reason.find("messages without a version"), std::string::npos) << reason;
+}
+
 TEST_F(RefusedRecording, WithAnUnknownController) {
   origin_["controller"] = "bang_bang";
   EXPECT_NE(reason_with(origin_).find("controller = bang_bang: this program has no such controller"),

@@ -181,11 +181,19 @@ std::optional<std::uint32_t> messages_version(const McapReader& recording) {
   return std::nullopt;
 }
 
+std::string version_difference(std::optional<std::uint32_t> recorded, std::uint32_t own) {
+  if (recorded == own) return {};
+  const std::string program = ", this program reads version " + std::to_string(own);
+  if (!recorded)
+    return "messages without a version (their schema has no readable MESSAGES_VERSION)" + program;
+  return "messages of version " + std::to_string(*recorded) + program;
+}
+
 Table run_table(McapReader& recording) {
   const auto version = messages_version(recording);
-  if (version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
-    throw SchemaError("the recording has messages of version " + std::to_string(*version) +
-                      ", this program reads version " + std::to_string(crane_MESSAGES_VERSION) +
+  const auto difference = version_difference(version);
+  if (version && !difference.empty())
+    throw SchemaError("the recording has " + difference +
                       ": make the table with the release that recorded it, or decode single topics with "
                       "`crane log export --topic`");
   RunTable run;

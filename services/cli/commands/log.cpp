@@ -152,9 +152,9 @@ void add_merge(CLI::App& log, Action& chosen, const SharedLogOptions& options) {
 
 void note_other_version(const McapReader& recording) {
   const auto version = recording::messages_version(recording);
-  if (version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
-    std::cerr << "the recording has messages of version " << *version << ", this program has version "
-              << crane_MESSAGES_VERSION << ": fields and units are those of the recording\n";
+  const auto difference = recording::version_difference(version);
+  if (version && !difference.empty())
+    std::cerr << "the recording has " << difference << ": fields and units are those of the recording\n";
 }
 
 void print_log_problems(const std::vector<std::string>& problems) {

@@ -33,11 +33,8 @@ Topics played_topics(const PlayOptions& options, const recording::McapReader& re
     if (!may_play(*topic))
       problems.push_back("--topic " + std::string{topic->name} +
                          ": cannot be played, because a crane would execute it");
-  const auto version = recording::messages_version(recording);
-  if (version != crane_MESSAGES_VERSION)
-    problems.push_back(options.file.string() + ": messages of version " +
-                       std::to_string(version.value_or(1)) + ", this program has version " +
-                       std::to_string(crane_MESSAGES_VERSION));
+  const auto difference = recording::version_difference(recording::messages_version(recording));
+  if (!difference.empty()) problems.push_back(options.file.string() + ": " + difference);
   if (!options.bus.secure.empty())
     problems.emplace_back(
         "--secure: a recording is not played on a bus with keys: no role may write the topics "

@@ -103,9 +103,9 @@ constexpr double kLongestGap_s = 0.2;
 /// @throws std::runtime_error when the recording is damaged or lacks positions: the box would be too small
 TaughtBox box_of(const ZoneOptions& options, const configuration::Rig& rig) {
   recording::McapReader reader{options.recording};
-  if (const auto version = recording::messages_version(reader);
-      version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
-    throw std::runtime_error(options.recording + ": its messages have another version");
+  const auto version = recording::messages_version(reader);
+  const auto difference = recording::version_difference(version);
+  if (version && !difference.empty()) throw std::runtime_error(options.recording + ": " + difference);
   TaughtBox box{rig.clearance.suspension_height_m,
                 rig.measures(plant::kHoist) ? 0 : rig.start.position[plant::kHoist]};
   std::optional<std::int64_t> first_ns;

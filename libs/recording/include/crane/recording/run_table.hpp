@@ -50,8 +50,14 @@ class RunTable {
 [[nodiscard]] std::string missing_ticks(const Table& table);
 
 /// Version of the messages in a recording: crane::MESSAGES_VERSION of its schema. Nothing: the recording has
-/// no crane topics, or its schema defines no MESSAGES_VERSION, which counts as version 1.
+/// no crane topics, or its schema defines no MESSAGES_VERSION.
 [[nodiscard]] std::optional<std::uint32_t> messages_version(const McapReader& recording);
+
+/// Difference between two versions of the messages; the texts of both always differ.
+/// @param recorded  messages_version() of the recording
+/// @return "messages of version 2, this program reads version 1"; empty when the versions are equal
+[[nodiscard]] std::string version_difference(std::optional<std::uint32_t> recorded,
+                                             std::uint32_t own = crane_MESSAGES_VERSION);
 
 /// Table of a recorded run.
 /// @throws DecodeError, SchemaError when the crane topics cannot be decoded
