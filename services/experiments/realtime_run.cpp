@@ -121,22 +121,25 @@ RealtimeRuns::End RealtimeRuns::observed_end(RealtimeSession& session, const con
   return {{last.trolley_position_m, last.slew_angle_rad, last.cable_length_m}, problem};
 }
 
-std::string RealtimeRuns::difference_from_start(const configuration::Rig& rig) const {
-  if (!end_) return {};
+std::string difference_from_start(const configuration::Rig& rig, const std::array<double, 3>& position) {
   constexpr double kSame = 1e-3;  // m or rad: nearer than a person can place an axis
   std::ostringstream text;
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
     const auto& drive = rig.drives[i];
     const double start = rig.start.position[i];
-    if (!drive.present || drive.zero != control::Zero::start || std::abs(end_->position[i] - start) < kSame)
+    if (!drive.present || drive.zero != control::Zero::start || std::abs(position[i] - start) < kSame)
       continue;
     const auto& axis = plant::kCoordinates[i];
-    text << (text.str().empty() ? "" : ", ") << axis.name << " at " << end_->position[i] << ' ' << axis.unit
+    text << (text.str().empty() ? "" : ", ") << axis.name << " at " << position[i] << ' ' << axis.unit
          << " ([start] " << start << ')';
   }
   if (text.str().empty()) return {};
   return "the axes do not stand at [start]: " + text.str() +
          "; before the next program starts, move them there by hand, or correct [start] in " + rig.path;
+}
+
+std::string RealtimeRuns::difference_from_start(const configuration::Rig& rig) const {
+  return end_ ? experiments::difference_from_start(rig, end_->position) : std::string{};
 }
 
 RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::string& controller,

@@ -30,6 +30,13 @@ struct RealtimeRun {
   std::vector<std::string> differences;
 };
 
+/// Warning after the use of a real crane: names each drive that stands at least 1 mm (1 mrad) from `[start]`
+/// although the next program would assume this position. Empty: there is none. Omits axes whose position does
+/// not come from `[start]` (homing, absolute encoders).
+/// @param position  last measured position: trolley m, slew rad, cable length m
+[[nodiscard]] std::string difference_from_start(const configuration::Rig& rig,
+                                                const std::array<double, 3>& position);
+
 struct RealtimeRunOptions {
   stack::Plant plant = stack::Plant::simulated;
   runtime::BusOptions bus;
@@ -53,8 +60,7 @@ class RealtimeRuns {
   [[nodiscard]] RealtimeRun run(const std::filesystem::path& rig_file, const std::string& controller,
                                 const experiment::Scenario& scenario);
 
-  /// After runs on a real crane: a warning that names each drive that does not stand at `[start]`, although
-  /// the next program would assume this position. Empty: all these drives stand at `[start]`.
+  /// difference_from_start() at the end of the last run on a real crane; empty for a simulated crane.
   [[nodiscard]] std::string difference_from_start(const configuration::Rig& rig) const;
 
  private:

@@ -158,6 +158,35 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   EXPECT_EQ(monitor.lines().outputs, closed);
 }
 
+/// The next start of the bridge sets the encoders to [start], wherever the axes stand.
+TEST(CraneUp, OnARealCraneStatesAtItsEndWhichAxesDoNotStandAtTheStart) {
+  for (const bool moves : {true, false}) {
+    ProgramRun up{stack::program_directory() / "crane",
+                  {"up", "--plant", "hardware", "--rig", kRig, "--domain", std::to_string(kDomain), "--crane",
+                   crane_name(), "--no-black-box"}};
+    ASSERT_TRUE(up.wait_for("is up", 15s)) << up.errors();
+    runtime::BusOptions options;
+    options.domain = kDomain;
+    options.crane = crane_name();
+    bus::Bus bus{runtime::bus_options(options, "system_test", crane_SOURCE_OPERATOR, 0)};
+    experiments::RealtimeSession session{bus, [] {}};
+    session.wait_for(crane_STATE_LOCKED, 5s);
+    if (moves) {
+      session.arm();
+      (void)session.move_to({true, false, false}, {0.6, 0, 0}, 20s);
+      session.disarm();
+    }
+    up.send(SIGINT);
+    EXPECT_EQ(up.wait(10s), 0);
+    const auto statement =
+        testing::ContainsRegex("the axes do not stand at \\[start\\]: trolley at (0.59|0.6).*0.3");
+    if (moves)
+      EXPECT_THAT(up.errors(), testing::AllOf(statement, testing::Not(HasSubstr("brake of"))));
+    else
+      EXPECT_THAT(up.errors(), testing::Not(HasSubstr("stand at [start]")));
+  }
+}
+
 TEST(BridgeProcess, EndsWithItsParentDespiteFileCapabilities) {
   const int not_the_parent = 1;
   const auto ended =

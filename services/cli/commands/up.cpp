@@ -16,6 +16,7 @@
 #include "crane/supervisor/component.hpp"
 #include "crane/twin/component.hpp"
 #include "dashboard/dashboard.hpp"
+#include "experiments/realtime_run.hpp"
 #include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
@@ -97,10 +98,39 @@ class DashboardKeeper {
   std::int64_t started_ns_ = 0;
 };
 
+/// Follows the positions of a real crane. The next start of a bridge sets the incremental encoders to
+/// `[start]` of the rig file, wherever the axes stand.
+class LastPosition {
+ public:
+  explicit LastPosition(bus::Bus& bus) : states_{bus.subscriber(topics::state)} {}
+  void follow() {
+    while (const auto state = states_.take()) last_ = *state;
+  }
+  /// Prints where the axes stand if the next start would assume other positions. Call when the bridge has
+  /// ended.
+  void warn(const configuration::Rig& rig) {
+    follow();
+    if (!last_) return;
+    const auto text = experiments::difference_from_start(
+        rig, {last_->trolley_position_m, last_->slew_angle_rad, last_->cable_length_m});
+    if (text.empty()) return;
+    std::cerr << "crane up: " << text << '\n';
+    for (std::size_t i = 0; i < plant::kAxes; ++i)
+      if (rig.drives[i].present && !last_->brake_closed[i])
+        std::cerr << "crane up: the brake of the " << plant::kCoordinates[i].name
+                  << " was open at the last measurement: the axis may stand elsewhere\n";
+  }
+
+ private:
+  bus::Subscriber<msg::State> states_;
+  std::optional<msg::State> last_;
+};
+
 /// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
 bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::optional<runtime::Node>& node,
-           stack::ServiceManager& manager) {
+           stack::ServiceManager& manager, std::optional<LastPosition>& position) {
   while (!runtime::stop_requested()) {
+    if (position) position->follow();
     manager.alive(runtime::monotonic_ns());
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
@@ -206,12 +236,15 @@ int up(UpOptions options) {
   if (black_box && node)
     node->error("process_ended", stack::describe(*black_box) + "; stops are not recorded",
                 "read the output of `crane up`, then restart the stack");
+  std::optional<LastPosition> position;
+  if (plant == stack::Plant::hardware) position.emplace(bus);
   stack::ServiceManager manager;
   manager.ready();
-  const bool orderly = watch(children, dashboard, node, manager);
+  const bool orderly = watch(children, dashboard, node, manager, position);
   guard.stopping();
   manager.stopping();
   children.stop();
+  if (position) position->warn(rig);
   return orderly ? runtime::kExitDone : runtime::kExitFailed;
 }
 
