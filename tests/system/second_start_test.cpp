@@ -71,7 +71,9 @@ TEST_F(StartOfASecond, StackOnTheSameCraneIsRefused) {
   const auto before = processes_with(crane_name());
   const auto ended = crane({"up"});
   EXPECT_EQ(ended.exit_code, kFailed);
-  EXPECT_THAT(ended.errors, HasSubstr("choose another --crane or --domain"));
+  EXPECT_THAT(ended.errors,
+              AllOf(testing::ContainsRegex("\\(crane_supervisor, pid [0-9]+ on [^,]+, [0-9a-f]+\\): "),
+                    HasSubstr("choose another --crane or --domain")));
   expect_only_the_first(before);
 }
 

@@ -131,6 +131,21 @@ void refuse_other_version(bus::Bus& bus) {
   if (!others.empty()) throw bus::Error(bus::refusal(others.front(), bus.options().messages_version));
 }
 
+namespace {
+
+/// @return " (crane_supervisor, pid 123 on HOST, 0110...)"; empty when no writer of the topic is known yet
+std::string named_writers(const bus::CdrSubscriber& probe) {
+  std::vector<bus::WriterId> writers;
+  probe.matched_writers(writers);
+  std::string names;
+  for (const auto& writer : writers)
+    if (const auto origin = probe.origin_of(writer); !origin.empty())
+      names += (names.empty() ? "" : "; ") + origin;
+  return names.empty() ? names : " (" + names + ')';
+}
+
+}  // namespace
+
 void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes, std::chrono::milliseconds look) {
   std::vector<bus::CdrSubscriber> probes;
   for (const auto& write : writes)
@@ -144,6 +159,7 @@ void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes, std::
       if (probe.matched() > 0)
         throw bus::Error("another process already writes " + std::string{probe.topic().name} + " of crane '" +
                          bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
+                         named_writers(probe) +
                          ": stop that stack first, or choose another --crane or --domain");
   }
 }
