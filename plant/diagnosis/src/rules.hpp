@@ -1,6 +1,7 @@
 #pragma once
 /// Thresholds that decide a verdict. report.json prints them; docs/diagnosis.md lists them.
 #include <array>
+#include <cstddef>
 
 namespace crane::diagnosis {
 
@@ -11,9 +12,27 @@ struct Rule {
   const char* meaning;
   const char* source;  ///< level of a test, physical bound, or "read off examples"
   constexpr operator double() const { return value; }  // NOLINT: a rule is used as its number
+  /// @pre the value is a count
+  [[nodiscard]] constexpr std::size_t count() const { return static_cast<std::size_t>(value); }
 };
 
 namespace rules {
+
+// Resampling.
+inline constexpr Rule kVotes{"votes", 500, "resamples", "block resamples that vote for a hypothesis",
+                             "chosen: a share of 95 % has a standard error of 1 %"};
+inline constexpr Rule kResamples{"resamples", 1000, "resamples", "resamples of the held-out gain",
+                                 "chosen: the ends of the interval have 25 resamples beyond them"};
+inline constexpr Rule kResamplings{"resamplings", 400, "resamples",
+                                   "block resamples of the profile of a parameter",
+                                   "chosen: a standard deviation has an error of 4 %"};
+inline constexpr Rule kSignFlips{"sign_flips", 999, "sign flips",
+                                 "sign flips of the scores of the blocks (min-P)",
+                                 "smallest possible p value: 0.1 %"};
+inline constexpr Rule kFlips{"flips", 99, "sign flips", "sign flips of a pattern of force or of a line",
+                             "smallest possible p value: 1 %"};
+inline constexpr Rule kFolds{"folds", 4, "folds", "folds of the cross-validation of a pattern or a line",
+                             "chosen: three of the four must agree"};
 
 // Acceptance of a cause.
 inline constexpr Rule kFamilywiseLevel{"familywise_level", 0.05, "1",
@@ -22,11 +41,11 @@ inline constexpr Rule kFamilywiseLevel{"familywise_level", 0.05, "1",
 inline constexpr Rule kSignificant{
     "significant", 0.01, "1",
     "level of the tests of scores, rivals, drive errors, narrow bands and short forces", "level of the test"};
-inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
+inline constexpr Rule kLeastAlone{"least_alone", 0.01, "1",
                                   "minimum reduction of the error of an output by the first cause",
                                   "read off examples"};
 inline constexpr Rule kLeastBeside{
-    "least_change_beside", 0.09, "1",
+    "least_beside", 0.09, "1",
     "minimum change of an output by a further cause / largest change of this output by another cause of the "
     "same hypothesis",
     "square root of indistinct: the equation of a term describes a crane with an error of this share"};
@@ -106,7 +125,34 @@ inline constexpr Rule kPatternShareOfCause{
     "pattern_share_of_cause", 0.5, "1",
     "maximum pattern / part of the loss that the weakest cause on the axis explains", "read off examples"};
 
-inline constexpr std::array kAll{kFamilywiseLevel,
+// Lines (forces of one frequency) and jumps.
+inline constexpr Rule kCommandLevel{"command_level", 0.01, "1",
+                                    "level of the test whether the commands of a run contain a line",
+                                    "level of the test (Rayleigh)"};
+inline constexpr Rule kLeastOfCommand{
+    "least_of_command", 0.5, "1",
+    "minimum force of a line / command of its frequency, if the command contains the line",
+    "the command of a controller that answers a force is at most twice the force (complementary "
+    "sensitivity)"};
+inline constexpr Rule kLineOfDrives{"line_of_drives", 0.025, "1",
+                                    "minimum share of a line in the loss of the drives",
+                                    "below this share a line has no consequence for the crane"};
+inline constexpr Rule kLineOfLoad{"line_of_load", 0.012, "1",
+                                  "minimum share of a line in the loss of the load",
+                                  "below this share a line has no consequence for the crane"};
+inline constexpr Rule kClearJumpStatistic{"clear_jump_statistic", 50, "noise variances",
+                                          "minimum statistic of a clear jump of position or speed",
+                                          "read off examples: clean data reach 20"};
+inline constexpr Rule kFewestJumpingPieces{"fewest_jumping_pieces", 3, "pieces",
+                                           "minimum number of pieces with a clear jump", "read off examples"};
+
+inline constexpr std::array kAll{kVotes,
+                                 kResamples,
+                                 kResamplings,
+                                 kSignFlips,
+                                 kFlips,
+                                 kFolds,
+                                 kFamilywiseLevel,
                                  kSignificant,
                                  kLeastAlone,
                                  kLeastBeside,
@@ -131,7 +177,13 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kPatternShareOneTerm,
                                  kPatternShareSeveralTerms,
                                  kPatternShareOverTime,
-                                 kPatternShareOfCause};
+                                 kPatternShareOfCause,
+                                 kCommandLevel,
+                                 kLeastOfCommand,
+                                 kLineOfDrives,
+                                 kLineOfLoad,
+                                 kClearJumpStatistic,
+                                 kFewestJumpingPieces};
 
 }  // namespace rules
 }  // namespace crane::diagnosis

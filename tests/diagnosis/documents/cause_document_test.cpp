@@ -1,10 +1,11 @@
 /// docs/terms.md shows the terms of the model (plant/model), the candidates of the diagnosis and the causes
-/// of the twin. docs/diagnosis.md shows the confounded groups of the score.
+/// of the twin. docs/diagnosis.md shows the confounded groups of the score, and the rules of the report.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "crane/diagnosis/candidate.hpp"
@@ -12,6 +13,7 @@
 #include "crane/twin/hypothesis.hpp"
 #include "documents/term_document.hpp"
 #include "laboratory/data_of_truth.hpp"
+#include "rules.hpp"
 #include "score/judgement.hpp"
 
 namespace crane::diagnosis {
@@ -67,6 +69,57 @@ void expect_document(const std::string& name, const std::string& mark, const std
   const auto copy = std::filesystem::path{testing::TempDir()} / name;
   std::ofstream{copy} << right;
   EXPECT_EQ(shown, right) << "put " << copy << " there";
+}
+
+std::vector<std::string> parts_of(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos;
+       begin = end + separator.size())
+    parts.push_back(text.substr(begin, end - begin));
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+/// "clear_win" of "`kClearWin`"
+std::string rule_name(const std::string& constant) {
+  std::string name;
+  for (const char c : constant) {
+    if (c == '`' || (c == 'k' && name.empty())) continue;
+    const bool upper = c >= 'A' && c <= 'Z';
+    if (upper && !name.empty()) name += '_';
+    name += static_cast<char>(upper ? c - 'A' + 'a' : c);
+  }
+  return name;
+}
+
+/// The values of the table of thresholds, by the name of the rule. A row lists names, values and units; one
+/// unit may belong to all values. A unit that begins with % is a share.
+std::map<std::string, double> documented_thresholds() {
+  const std::string text = document("diagnosis.md");
+  const std::size_t begin = text.find("### Decision thresholds");
+  std::map<std::string, double> values;
+  for (const std::string& line : parts_of(text.substr(begin), "\n")) {
+    if (!line.starts_with("| `k")) continue;
+    const auto cells = parts_of(line.substr(2), " | ");
+    const auto names = parts_of(cells.at(0), ", "), numbers = parts_of(cells.at(1), ", "),
+               units = parts_of(cells.at(2), ", ");
+    if (names.size() != numbers.size()) continue;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool percent = units[std::min(i, units.size() - 1)].starts_with('%');
+      values[rule_name(names[i])] = std::stod(numbers[i]) / (percent ? 100 : 1);
+    }
+  }
+  return values;
+}
+
+TEST(DiagnosisDocument, ShowsTheValueOfEachRuleOfTheReport) {
+  const auto shown = documented_thresholds();
+  for (const Rule& rule : rules::kAll) {
+    const auto found = shown.find(rule.name);
+    ASSERT_NE(found, shown.end()) << rule.name << ": add a row to the decision thresholds";
+    EXPECT_DOUBLE_EQ(found->second, rule.value) << rule.name;
+  }
 }
 
 TEST(TermDocument, ShowsTheTermsAndWhatFindsThem) {

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "force/normal_equations.hpp"
+#include "rules.hpp"
 
 namespace crane::diagnosis {
 
 /// Folds of the patterns of drives and swing, and of the lines.
-inline constexpr std::size_t kFolds = 4;
+inline constexpr std::size_t kFolds = rules::kFolds.count();
 /// The largest of 99 is exceeded by chance with a probability of 1 %.
-inline constexpr std::size_t kFlips = 99;
+inline constexpr std::size_t kFlips = rules::kFlips.count();
 
 /// Small penalty of the amplitudes, on the diagonal of the Hessian.
 [[nodiscard]] double ridge_of(const NormalEquations& all);

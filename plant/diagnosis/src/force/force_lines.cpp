@@ -10,6 +10,7 @@
 #include "force/cross_validation.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
+#include "rules.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -21,13 +22,6 @@ using Eigen::VectorXd;
 
 /// Frequencies of the lines. Spacing: half the resolution 1 / 40 s.
 constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
-/// Level of the test whether the command of a run has a line.
-constexpr double kCommandLevel = 0.01;
-/// Least force of a line whose frequency the command contains, as a share of the command. The command of a
-/// controller that answers the force is at most twice the force (complementary sensitivity).
-constexpr double kLeastOfCommand = 0.5;
-/// Share of the loss below which a line has no consequence for the crane.
-constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
 /// A force of one frequency: cosine and sine on each piece. Each run has its own phase.
 struct Line {
@@ -40,7 +34,8 @@ double turn_per_row(const Run& run, double hz) { return 2 * std::numbers::pi * h
 /// Amplitude of the command at `hz` if its Fourier components have similar phases in all pieces of the run
 /// (Rayleigh test), else 0. V
 double commanded_v(const Pieces& pieces, std::size_t run_index, double hz) {
-  const double most = -std::log(kCommandLevel);  // of random phases: exponentially distributed, mean 1
+  const double most =
+      -std::log(rules::kCommandLevel.value);  // of random phases: exponentially distributed, mean 1
   const Run& run = (*pieces.runs)[run_index].run;
   const std::size_t axis = pieces.output == kSlewAngle ? plant::kSlew : plant::kTrolley;
   std::complex<double> sum = 0;
@@ -58,14 +53,14 @@ double commanded_v(const Pieces& pieces, std::size_t run_index, double hz) {
 }
 
 /// Omits the runs whose force can be a function of a periodic motion, for example friction whose form differs
-/// from that of the model: the command contains the line, and the force is below kLeastOfCommand times the
-/// command.
+/// from that of the model: the command contains the line, and the force is below rules::kLeastOfCommand times
+/// the command.
 void omit_commanded(const Pieces& pieces, double volt_acceleration, Line& line) {
   std::map<std::size_t, NormalEquations> by_run;
   for (std::size_t i = 0; i < line.pieces.size(); ++i)
     by_run.try_emplace(pieces.all[i].run, NormalEquations{2}).first->second += *line.pieces[i];
   for (const auto& [run, sums] : by_run) {
-    const double least = kLeastOfCommand * volt_acceleration * commanded_v(pieces, run, line.hz);
+    const double least = rules::kLeastOfCommand * volt_acceleration * commanded_v(pieces, run, line.hz);
     if (wave_amplitude(sums).norm() >= least) continue;
     for (std::size_t i = 0; i < line.pieces.size(); ++i)
       if (pieces.all[i].run == run) line.pieces[i].reset();
@@ -145,7 +140,7 @@ double largest_by_sign_flips(const Pieces& pieces, const std::vector<Line>& line
 std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed,
                                            double volt_acceleration) {
   if (pieces.all.empty()) return std::nullopt;
-  const double loss = pieces.loss(), least = pieces.of_load() ? kLineOfLoad : kLineOfDrives;
+  const double loss = pieces.loss(), least = pieces.of_load() ? rules::kLineOfLoad : rules::kLineOfDrives;
   std::vector<Line> lines(static_cast<std::size_t>((kHighest_hz - kLowest_hz) / kSpacing_hz));
   parallel_for(lines.size(), [&](std::size_t i) {
     lines[i] = line_at(pieces, kLowest_hz + kSpacing_hz * static_cast<double>(i));

@@ -6,6 +6,7 @@
 
 #include "parallel.hpp"
 #include "robust.hpp"
+#include "rules.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -14,9 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Chi-square of a jump, one degree of freedom; the largest in clean data is 20.
-constexpr double kClearJumpStatistic = 50;
-constexpr std::size_t kFewestJumpingPieces = 3;
 /// Rows at the ends of a piece, where a jump resembles another start.
 constexpr std::size_t kJumpMargin_rows = 5;
 
@@ -58,12 +56,12 @@ std::optional<Unexplained> find_jumps(const Pieces& pieces) {
   double gain = 0, rather_position = 0;
   for (const auto& [of_position, of_speed] : found) {
     const double stronger = std::max(of_position, of_speed);
-    if (stronger < kClearJumpStatistic) continue;
+    if (stronger < rules::kClearJumpStatistic) continue;
     ++clear;
     gain += loss_of(std::sqrt(stronger));
     rather_position += of_position - of_speed;
   }
-  if (clear < kFewestJumpingPieces) return std::nullopt;
+  if (clear < rules::kFewestJumpingPieces.count()) return std::nullopt;
   const std::string axis = axis_of(pieces.output);
   return Unexplained{axis + (rather_position > 0 ? ": jumps of the position, " : ": jumps of the speed, ") +
                          std::to_string(clear) + " in " + std::to_string(found.size()) + " motions",

@@ -7,7 +7,7 @@
 namespace crane::diagnosis {
 
 /// Jumps of position or speed. Nothing unless the strongest jumps of at least kFewestJumpingPieces pieces
-/// have a statistic of at least kClearJumpStatistic.
+/// have a statistic of at least kClearJumpStatistic (rules.hpp).
 /// @param pieces of a drive
 [[nodiscard]] std::optional<Unexplained> find_jumps(const Pieces& pieces);
 

@@ -10,7 +10,7 @@
 namespace crane::diagnosis {
 namespace {
 
-constexpr int kVotes = 500;
+constexpr int kVotes = static_cast<int>(rules::kVotes.count());
 
 /// Limits each difference to twice the 95 % quantile of the magnitudes. Without the limit, one block can
 /// outweigh all others: a slip that comes a little earlier or later changes its block as much as a real

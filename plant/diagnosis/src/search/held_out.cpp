@@ -9,7 +9,7 @@
 namespace crane::diagnosis {
 namespace {
 
-constexpr int kResamples = 1000;
+constexpr int kResamples = static_cast<int>(rules::kResamples.count());
 
 /// Windows of one part with starts that minimise the error in m or rad. A start that minimises the whitened
 /// error may leave a larger error in m or rad than a load at rest.

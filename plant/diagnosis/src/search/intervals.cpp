@@ -16,7 +16,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kResamplings = 400;
+constexpr int kResamplings = static_cast<int>(rules::kResamplings.count());
 /// The profile ends where the loss exceeds the loss of the fit by more.
 constexpr double kFarLoss = 60;
 /// Points of the profile, in standard deviations of the sandwich covariance.

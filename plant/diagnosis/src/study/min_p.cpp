@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "rules.hpp"
 #include "study/blocks.hpp"
 
 namespace crane::diagnosis {
@@ -13,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index kSignFlips = 999;
+constexpr Index kSignFlips = static_cast<Index>(rules::kSignFlips.count());
 
 double chi_square_p(double statistic, Index freedom) {
   return !(statistic > 0) ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
