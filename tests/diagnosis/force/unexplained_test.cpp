@@ -273,8 +273,8 @@ TEST(Intervals, ContainTheTruthAndAreNarrow) {
     const Fitted fitted = with_intervals(study, study.fit({{&*viscous, {0.1}}}), seed);
     const double error = fitted.effects[0].values[0] - kViscous_vspm;
     EXPECT_LT(std::abs(error), 0.05 * kViscous_vspm) << "seed " << seed;
-    inside += std::abs(error) <= 2 * fitted.std_dev[0] ? 1 : 0;
-    width += fitted.std_dev[0] / kViscous_vspm / kBodies;
+    inside += std::abs(error) <= 2 * fitted.interval_std_dev[0] ? 1 : 0;
+    width += fitted.interval_std_dev[0] / kViscous_vspm / kBodies;
   }
   EXPECT_GE(inside, 72);
   EXPECT_LT(width, 0.015);

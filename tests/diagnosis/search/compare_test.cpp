@@ -117,15 +117,15 @@ TEST_F(Compared, AnAmountWhoseIntervalContainsZeroIsNotSignificant) {
                        neutral_at(0)};  // a factor, which is an amount, and a decay speed, which is not
   other.parameters = {neutral_at(0)};
   fitted.effects = {{&effect, {1.5, 0.1}}, {&other, {-0.196}}};
-  fitted.std_dev = {0.1, 0.09, 0.1};
+  fitted.interval_std_dev = {0.1, 0.09, 0.1};
   EXPECT_NEAR(wald_p_value(fitted), 0.05, 1e-4);  // 1.96 standard deviations of `other`
-  fitted.std_dev = {0.1, 0.09, 0.02};
+  fitted.interval_std_dev = {0.1, 0.09, 0.02};
   EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the factor
-  fitted.std_dev = {0.5, 1e-6, 0.02};
+  fitted.interval_std_dev = {0.5, 1e-6, 0.02};
   // 1 standard deviation of the factor; the accuracy of the decay speed has no influence
   EXPECT_NEAR(wald_p_value(fitted), 0.3173, 1e-4);
   effect.amount_count = 2;
-  fitted.std_dev = {0.5, 0.02, 0.02};
+  fitted.interval_std_dev = {0.5, 0.02, 0.02};
   EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the second amount
 }
 

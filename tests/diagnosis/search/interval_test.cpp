@@ -49,8 +49,8 @@ TEST(IntervalOfASwingOffset, ContainsTheErrorOfTheZeroOfTheEncoder) {
     study.learn_disturbance(effects);
     const Fitted fitted = with_intervals(study, study.fit(effects), 1);
     const double error = fitted.effects[0].values[0] - kOffset_rad;
-    within_two += std::abs(error) <= 2 * fitted.std_dev[0] ? 1 : 0;
-    EXPECT_NEAR(fitted.std_dev[0], kCount_rad / std::sqrt(12), 0.1 * kCount_rad) << "seed " << kSeed;
+    within_two += std::abs(error) <= 2 * fitted.interval_std_dev[0] ? 1 : 0;
+    EXPECT_NEAR(fitted.interval_std_dev[0], kCount_rad / std::sqrt(12), 0.1 * kCount_rad) << "seed " << kSeed;
   }
   EXPECT_GE(within_two, kEncoders - 1) << "seed " << kSeed;
 }

@@ -80,10 +80,10 @@ TEST(Intervals, OfARippleContainTheTruthDespiteARoughLoss) {
     const auto error = [&](std::size_t i) {
       return std::abs(fitted.effects[0].values[i] - hidden[0].values[i]);
     };
-    EXPECT_LE(error(0), 3 * fitted.std_dev[0]) << "seed " << seed;
-    EXPECT_LE(error(2), 3 * fitted.std_dev[2]) << "seed " << seed;
-    EXPECT_LT(fitted.std_dev[0], 0.1 * kAmplitude_v) << "seed " << seed;
-    EXPECT_LT(fitted.std_dev[2], 1e-3 * kWavelength_m) << "seed " << seed;
+    EXPECT_LE(error(0), 3 * fitted.interval_std_dev[0]) << "seed " << seed;
+    EXPECT_LE(error(2), 3 * fitted.interval_std_dev[2]) << "seed " << seed;
+    EXPECT_LT(fitted.interval_std_dev[0], 0.1 * kAmplitude_v) << "seed " << seed;
+    EXPECT_LT(fitted.interval_std_dev[2], 1e-3 * kWavelength_m) << "seed " << seed;
   }
 }
 

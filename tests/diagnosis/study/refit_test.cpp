@@ -83,7 +83,7 @@ TEST(Refit, WithSlopesOfEarlierValuesEndsAtTheMinimum) {
     std::size_t value = 0;
     for (std::size_t i = 0; i < effects.size(); ++i)
       for (std::size_t k = 0; k < effects[i].values.size(); ++k, ++value)
-        EXPECT_NEAR(again.effects[i].values[k], once.effects[i].values[k], kSmall * once.std_dev[value])
+        EXPECT_NEAR(again.effects[i].values[k], once.effects[i].values[k], kSmall * once.block_std_dev[value])
             << effects[i].candidate->label();
   }
 }

@@ -173,7 +173,7 @@ TEST(StatedAccuracy, ContainsAQuickForceOnlyIfItIsSmallAsAForce) {
   const auto contains = [&](double amplitude_v) -> bool {
     Fitted fitted;
     fitted.effects = {{&*ripple, {amplitude_v, 0, kWavelength_m}}};
-    fitted.std_dev = {0, 0, 0};
+    fitted.interval_std_dev = {0, 0, 0};
     return StatedAccuracy(rig, kUsualAccuracy).contains_each(study, fitted).front();
   };
   EXPECT_FALSE(contains(kLarge_v));
@@ -192,7 +192,7 @@ TEST(StatedAccuracy, ContainsAMeanOfTheSwingOverOneControlPeriod) {
   const auto contains = [&](double window_s) -> bool {
     Fitted fitted;
     fitted.effects = {{&*mean, {window_s}}};
-    fitted.std_dev = {0};
+    fitted.interval_std_dev = {0};
     return StatedAccuracy(rig, kUsualAccuracy).contains_each(study, fitted).front();
   };
   EXPECT_TRUE(contains(0.9 * rig.period_s));

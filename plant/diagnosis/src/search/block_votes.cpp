@@ -75,7 +75,7 @@ double superfluous_share(const Fitted& fitted) {
   for (const Effect& effect : fitted.effects) {
     for (std::size_t k = 1; k < effect.candidate->amount_count; ++k) {
       const double distance = std::abs(effect.values[k] - effect.candidate->parameters[k].null);
-      const double p_value = std::erfc(distance / (fitted.std_dev[first + k] * std::numbers::sqrt2));
+      const double p_value = std::erfc(distance / (fitted.block_std_dev[first + k] * std::numbers::sqrt2));
       superfluous += p_value > rules::kFamilywiseLevel ? 1 : 0;
     }
     first += effect.values.size();

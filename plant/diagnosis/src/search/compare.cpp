@@ -120,7 +120,8 @@ double wald_p_value(const Fitted& fitted) {
     double surest = 0;
     for (std::size_t k = 0; k < effect.candidate->amount_count; ++k) {
       const double distance = std::abs(effect.values[k] - effect.candidate->parameters[k].null);
-      if (fitted.std_dev[first + k] > 0) surest = std::max(surest, distance / fitted.std_dev[first + k]);
+      if (const double std_dev = fitted.interval_std_dev[first + k]; std_dev > 0)
+        surest = std::max(surest, distance / std_dev);
     }
     first += effect.values.size();
     most = std::max(most, std::erfc(surest / std::numbers::sqrt2));
@@ -166,22 +167,22 @@ bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
   return block_wins(fitted.deviance, base.deviance, seed) > 1 - rules::kSignificant;
 }
 
-std::vector<Estimate> estimates(const Fitted& f) {
+std::vector<Estimate> estimates(const Effects& effects, std::span<const double> std_dev) {
   std::vector<Estimate> all;
   std::size_t i = 0;
-  for (const Effect& effect : f.effects)
+  for (const Effect& effect : effects)
     for (std::size_t k = 0; k < effect.values.size(); ++k, ++i)
       all.push_back(
           {effect.candidate->parameters[k].name,
            std::string{plant::unit_on(effect.candidate->axis, effect.candidate->parameters[k].unit)},
-           effect.values[k], f.std_dev[i]});
+           effect.values[k], std_dev[i]});
   return all;
 }
 
 Ranked ranked_against(const Fitted& base, const Fitted& fitted) {
   Ranked ranked;
   ranked.label = label_of(fitted.effects);
-  ranked.parameters = estimates(fitted);
+  ranked.parameters = estimates(fitted.effects, fitted.block_std_dev);
   ranked.train_gain = sum(base.deviance) - sum(fitted.deviance);
   return ranked;
 }

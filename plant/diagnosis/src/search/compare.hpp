@@ -1,6 +1,7 @@
 #pragma once
 /// Comparisons of fitted hypotheses.
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,13 +61,14 @@ namespace crane::diagnosis {
 /// p value of the Wald test (Trans. Amer. Math. Soc. 54 (1943) 426) of "the amount of the least certain
 /// effect is 0": two-sided tail of the normal distribution at amount / standard deviation. For an effect with
 /// two amounts, the more certain amount counts. In [0, 1]; 0 without effects.
-/// @param fitted with std_dev from with_intervals()
+/// @param fitted with interval_std_dev
 [[nodiscard]] double wald_p_value(const Fitted& fitted);
 /// True when `p_value` is not significant for the best of `candidates` (Bonferroni, kFamilywiseLevel).
 [[nodiscard]] bool insignificant(double p_value, std::size_t candidates);
 
-[[nodiscard]] std::vector<Estimate> estimates(const Fitted& fitted);
-/// Line of the ranking, without p value and votes.
+/// @param std_dev  Fitted::block_std_dev or interval_std_dev
+[[nodiscard]] std::vector<Estimate> estimates(const Effects& effects, std::span<const double> std_dev);
+/// Line of the ranking with block_std_dev, without p value and votes.
 [[nodiscard]] Ranked ranked_against(const Fitted& base, const Fitted& fitted);
 
 }  // namespace crane::diagnosis

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "rules.hpp"
 #include "search/rough_interval.hpp"
 #include "study/uncertainty.hpp"
 
@@ -154,7 +155,7 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
       std_dev.push_back(std_dev_of(value, scatter, parabola.std_dev[i]));
     }
     if (better.empty()) {
-      fitted.std_dev = std::move(std_dev);
+      fitted.interval_std_dev = std::move(std_dev);
       return fitted;
     }
     Fitted refit = study.converged(study.fit(better));

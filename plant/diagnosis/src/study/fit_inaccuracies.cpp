@@ -68,10 +68,10 @@ void Study::estimate_uncertainty(Fitted& fitted, const Slopes& along, const Effe
   const MatrixXd inverse =
       MatrixXd(both.curvature(free, free)).completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd covariance = inverse * (scores.transpose() * scores) * inverse;
-  fitted.std_dev.clear();
+  fitted.block_std_dev.clear();
   for (const double variance : covariance.diagonal().head(own))
-    fitted.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
-  fitted.parameters = fitted.std_dev.size();
+    fitted.block_std_dev.push_back(std::sqrt(std::max(0.0, variance)));
+  fitted.parameters = fitted.block_std_dev.size();
 }
 
 }  // namespace crane::diagnosis

@@ -58,9 +58,12 @@ struct Fitted {
   /// By effect and output: rms difference, in windows, between the simulations with and without the effect,
   /// from the same starts, m or rad.
   std::vector<std::array<double, kOutputs>> change;
-  /// Of all values in the order of `effects`. After a fit: by the block scores alone; after with_intervals():
-  /// combined with the other errors, scaled to a 95 % interval of +-1.96.
-  std::vector<double> std_dev;
+  /// Standard deviations of all values in the order of `effects`, by the block scores alone. The search
+  /// compares hypotheses with them.
+  std::vector<double> block_std_dev;
+  /// The same, combined with the other errors and scaled to a 95 % interval of +-1.96. The verdict tests and
+  /// reports them. Empty before with_intervals().
+  std::vector<double> interval_std_dev;
   std::size_t parameters = 0;
 };
 

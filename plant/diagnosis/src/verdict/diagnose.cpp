@@ -22,7 +22,7 @@ namespace {
 
 /// @param within_accuracy by effect
 void give_values(const Fitted& best, const std::vector<bool>& within_accuracy, Diagnosis& result) {
-  const std::vector<Estimate> values = estimates(best);
+  const std::vector<Estimate> values = estimates(best.effects, best.interval_std_dev);
   auto next = values.begin();
   auto cause = result.causes.begin(), small = result.within_accuracy.begin();
   for (std::size_t i = 0; i < best.effects.size(); ++i) {

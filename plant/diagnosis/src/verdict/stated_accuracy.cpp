@@ -139,7 +139,7 @@ std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted
     }
   }
   std::vector<bool> contained;
-  std::span<const double> std_dev = fitted.std_dev;
+  std::span<const double> std_dev = fitted.interval_std_dev;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     contained.push_back(limits_of(*effects[i].candidate).empty()
                             ? is_error_of_zero(study, effects[i]) ||

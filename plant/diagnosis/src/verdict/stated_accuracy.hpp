@@ -25,7 +25,7 @@ class StatedAccuracy {
   /// offset of at most half a resolution of the sensor. A change is an rms in the windows of the training
   /// data and, for a swing, over whole runs, from the same starts; for a drive also the rms of its
   /// acceleration along the measured motion, because the position hides a force that alternates quickly.
-  /// @param fitted with std_dev from with_intervals()
+  /// @param fitted with interval_std_dev
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
