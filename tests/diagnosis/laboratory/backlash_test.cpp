@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "crane/diagnosis/diagnosis.hpp"
+#include "laboratory/expect_cause.hpp"
 #include "laboratory/strange_lab.hpp"
 
 namespace crane::diagnosis {
@@ -81,20 +82,14 @@ Diagnosis diagnosed(const GapGantry& crane) {
 
 TEST(BacklashOfALaboratory, IsNamedWhenTheGuideTakesItsFrictionFromTheMotor) {
   const Diagnosis found = diagnosed({.motor_friction_v = 0.08, .guide_friction_v = kFriction_v - 0.08});
-  EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
-  ASSERT_EQ(found.causes.size(), 1U);
-  EXPECT_EQ(found.causes[0].name, "backlash");
-  EXPECT_NEAR(found.causes[0].parameters.at(0).value, kGap_m, 0.15 * kGap_m);
+  ASSERT_NO_FATAL_FAILURE(expect_cause(found, "backlash", kGap_m, 0.15 * kGap_m));
   EXPECT_NEAR(found.causes[0].parameters.at(2).value, kCarriageShare, 0.1);
   EXPECT_GT(found.causes[0].parameters.at(3).value, 0.8);
 }
 
 TEST(LongBacklashOfALaboratory, IsNamedWhenTheGuideHasAdditionalFriction) {
   const Diagnosis found = diagnosed({.guide_friction_v = 0.07});
-  EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
-  ASSERT_EQ(found.causes.size(), 1U);
-  EXPECT_EQ(found.causes[0].name, "backlash");
-  EXPECT_NEAR(found.causes[0].parameters.at(0).value, kGap_m, 0.15 * kGap_m);
+  ASSERT_NO_FATAL_FAILURE(expect_cause(found, "backlash", kGap_m, 0.15 * kGap_m));
   EXPECT_LT(found.causes[0].parameters.at(3).value, 0.2);
 }
 

@@ -3,6 +3,7 @@
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "laboratory/amplifier_runs.hpp"
+#include "laboratory/expect_cause.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -13,10 +14,7 @@ TEST(ScrewAxis, WhoseFrictionGrowsWithTheMotorForceHasNoWeakMotor) {
   screw.gear_share = 0.15;
   const Diagnosis found =
       diagnose(rig_of_axis(), inaccurate_runs_of(screw, 21), inaccurate_runs_of(screw, 22));
-  EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
-  ASSERT_EQ(found.causes.size(), 1U) << found.sentence;
-  EXPECT_EQ(found.causes[0].name, "gear_friction");
-  EXPECT_NEAR(found.causes[0].parameters.at(0).value, screw.gear_share, 0.03);
+  expect_cause(found, "gear_friction", screw.gear_share, 0.03);
 }
 
 /// In volts, the friction of a heavier carriage is that of the rig file; of a weaker motor, it is larger.

@@ -3,6 +3,7 @@
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "laboratory/amplifier_runs.hpp"
+#include "laboratory/expect_cause.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -17,10 +18,7 @@ void expect_wave(double periods) {
   request.most_effects = 1;
   const Diagnosis found =
       diagnose(rig_of_axis(), inaccurate_runs_of(axis, 21), inaccurate_runs_of(axis, 22), request);
-  EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
-  ASSERT_EQ(found.causes.size(), 1U) << found.sentence;
-  ASSERT_EQ(found.causes[0].name, "torque_ripple") << found.sentence;
-  EXPECT_NEAR(found.causes[0].parameters.at(0).value, kAmplitude_v, 0.1 * kAmplitude_v);
+  ASSERT_NO_FATAL_FAILURE(expect_cause(found, "torque_ripple", kAmplitude_v, 0.1 * kAmplitude_v));
   EXPECT_NEAR(found.causes[0].parameters.at(2).value, length_m, 0.02 * length_m);
 }
 

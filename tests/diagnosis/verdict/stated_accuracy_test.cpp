@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "crane/diagnosis/diagnosis.hpp"
+#include "laboratory/expect_cause.hpp"
 #include "laboratory/strange_lab.hpp"
 #include "study/study.hpp"
 #include "verdict/stated_accuracy.hpp"
@@ -81,10 +82,7 @@ TEST(StatedAccuracy, NamesAnErrorOfScaleThatTwoSmallErrorsDoNotExplain) {
 
 TEST(StatedAccuracy, NamesALargeErrorBesideASmallOne) {
   const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.03);
-  ASSERT_EQ(found.verdict, Verdict::named) << found.sentence;
-  ASSERT_EQ(found.causes.size(), 1U);
-  EXPECT_EQ(found.causes[0].name, "command_delay");
-  EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.03, 0.002);
+  ASSERT_NO_FATAL_FAILURE(expect_cause(found, "command_delay", 0.03, 0.002));
   EXPECT_NEAR(calibrated_value(found, "motor_gain"), 1.01, 0.002);
   EXPECT_TRUE(std::isnan(calibrated_value(found, "command_delay"))) << "the cause has the whole value";
 }
