@@ -161,8 +161,11 @@ TEST(Equations, GantryIsTheTowerWithoutSlewAndTangentialSwingAndTheOppositeSignO
     s.tangential_rad = s.tangential_radps = s.slew_radps = 0;
     const double force = 30, hoisting = -1.2;
     const Accelerations tower = accelerations(p, s, {.trolley_n = force}, hoisting, gantry);
-    const GantryAccelerations plane =
-        gantry_accelerations(p, -s.radial_rad, -s.radial_radps, s.cable_m, s.cable_mps, hoisting, force);
+    const GantryState opposite{.swing_rad = -s.radial_rad,
+                               .swing_radps = -s.radial_radps,
+                               .cable_m = s.cable_m,
+                               .cable_mps = s.cable_mps};
+    const GantryAccelerations plane = gantry_accelerations(p, opposite, hoisting, force);
     EXPECT_NEAR(tower.trolley_mps2, plane.trolley_mps2, kAgreement);
     EXPECT_NEAR(tower.radial_radps2, -plane.swing_radps2, kAgreement);
     // (2.5) and (2.6) as printed

@@ -226,15 +226,14 @@ double energy_j(const Parameters& p, const State& s) noexcept {
          p.load_mass_kg * p.gravity_mps2 * s.cable_m * a.ct * a.cf;
 }
 
-GantryAccelerations gantry_accelerations(const Parameters& p, double swing_rad, double swing_radps,
-                                         double cable_m, double cable_mps, double cable_mps2,
+GantryAccelerations gantry_accelerations(const Parameters& p, const GantryState& s, double cable_mps2,
                                          double force_n) noexcept {
-  const double m = p.load_mass_kg, sine = std::sin(swing_rad), cosine = std::cos(swing_rad);
-  const double driving_n = force_n - m * cable_mps2 * sine - 2 * m * cable_mps * swing_radps * cosine +
-                           m * cable_m * swing_radps * swing_radps * sine;
-  const double free_swing = -p.gravity_mps2 * sine - 2 * cable_mps * swing_radps;  // L phi'' for x'' = 0
+  const double m = p.load_mass_kg, sine = std::sin(s.swing_rad), cosine = std::cos(s.swing_rad);
+  const double driving_n = force_n - m * cable_mps2 * sine - 2 * m * s.cable_mps * s.swing_radps * cosine +
+                           m * s.cable_m * s.swing_radps * s.swing_radps * sine;
+  const double free_swing = -p.gravity_mps2 * sine - 2 * s.cable_mps * s.swing_radps;  // L phi'' for x'' = 0
   const double trolley = (driving_n - m * cosine * free_swing) / (p.trolley_inertia_kg + m * sine * sine);
-  return {.trolley_mps2 = trolley, .swing_radps2 = (free_swing - trolley * cosine) / cable_m};
+  return {.trolley_mps2 = trolley, .swing_radps2 = (free_swing - trolley * cosine) / s.cable_m};
 }
 
 LinearModel linear_translation(const Parameters& p, double cable_m) noexcept {

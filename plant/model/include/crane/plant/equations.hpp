@@ -109,12 +109,19 @@ struct CableTension {
 
 /// Equations of the gantry, (2.5), (2.6), with the swing sign of the source's gantry chapter:
 /// r_L = {x + L sin(phi), -L cos(phi)}, hence phi = -State::radial_rad. @pre load mass > 0
+/// They do not depend on position and speed of the trolley.
+struct GantryState {
+  double swing_rad = 0;    ///< phi of the gantry chapter: positive with the load ahead of the trolley
+  double swing_radps = 0;  ///< rate of swing_rad
+  double cable_m = 1;      ///< L > 0
+  double cable_mps = 0;    ///< L'
+};
 struct GantryAccelerations {
   double trolley_mps2 = 0;
   double swing_radps2 = 0;
 };
-[[nodiscard]] GantryAccelerations gantry_accelerations(const Parameters& parameters, double swing_rad,
-                                                       double swing_radps, double cable_m, double cable_mps,
+/// @param cable_mps2  L'' @param force_n  force of the drive on the trolley
+[[nodiscard]] GantryAccelerations gantry_accelerations(const Parameters& parameters, const GantryState& state,
                                                        double cable_mps2, double force_n) noexcept;
 
 }  // namespace crane::plant
