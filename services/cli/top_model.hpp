@@ -39,8 +39,8 @@ class TopModel {
   /// One value for each window, the newest last: p99 of the delay in us; without delay the rate in Hz.
   [[nodiscard]] const std::deque<double>& trend(std::size_t topic) const { return trends_[topic]; }
 
-  /// {"supervisor": {"state", "cause", "remedy", "age_s"} or null, "latch", "tick", "largest_swing", "faults",
-  /// "topics", "processes"}
+  /// {"supervisor": {"state", "cause", "remedy", "age_s"} or null, "latch", "tick", "largest_swing",
+  /// "faults", "topics", "processes"}
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
  private:
