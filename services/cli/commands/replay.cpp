@@ -1,4 +1,4 @@
-/// crane replay: repeats a recorded run with the present programs, and compares every sample.
+/// crane replay: runs the installed programs on the recorded inputs, and compares every sample.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -176,7 +176,7 @@ int run(const ReplayOptions& options) {
 void add_replay(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ReplayOptions>();
   auto* command = app.add_subcommand(
-      "replay", "Repeat a recorded run with the present programs, and compare every sample bit for bit");
+      "replay", "Run the installed programs on the recorded inputs, and compare every sample bit for bit");
   command
       ->add_option("FILE", options->file, "recording of crane run, crane record or crane up --record (.mcap)")
       ->required()
