@@ -109,10 +109,15 @@ inline constexpr Rule kCredibleForce{
     "half a newton on two kilograms: wind and hands at a laboratory's crane"};
 inline constexpr Rule kPattern{"pattern", 0.008, "1", "minimum share of a pattern in the loss of the drives",
                                "read off examples"};
-inline constexpr Rule kPatternLuck{"pattern_luck", 15, "noise variances", "largest pattern of pure noise",
-                                   "read off examples"};
-inline constexpr Rule kPatternShare{"pattern_share", 0.04, "1", "maximum pattern / loss of the base model",
-                                    "read off examples"};
+inline constexpr Rule kPatternLuck{
+    "pattern_luck", 15, "noise variances",
+    "smallest decrease of the loss at which a pattern counts; patterns of pure noise stay below",
+    "read off examples"};
+inline constexpr Rule kPatternShare{
+    "pattern_share", 0.04, "1",
+    "smallest pattern / loss of the base model at which a pattern counts, if no found cause has a law in its "
+    "variable",
+    "read off examples"};
 inline constexpr Rule kPatternShareOneTerm{"pattern_share_one_term", 0.1, "1",
                                            "the same for a pattern in the variable of the law of one cause",
                                            "read off examples"};
@@ -121,9 +126,10 @@ inline constexpr Rule kPatternShareSeveralTerms{
     "the same for a pattern in the variable of the laws of several causes", "read off examples"};
 inline constexpr Rule kPatternShareOverTime{"pattern_share_over_time", 0.01, "1",
                                             "the same for a pattern over time", "read off examples"};
-inline constexpr Rule kPatternShareOfCause{
-    "pattern_share_of_cause", 0.5, "1",
-    "maximum pattern / part of the loss that the weakest cause on the axis explains", "read off examples"};
+inline constexpr Rule kPatternShareOfCause{"pattern_share_of_cause", 0.5, "1",
+                                           "smallest pattern / part of the loss that the weakest cause on "
+                                           "the axis explains, at which a pattern counts",
+                                           "read off examples"};
 
 // Lines (forces of one frequency) and jumps.
 inline constexpr Rule kCommandLevel{"command_level", 0.01, "1",
