@@ -95,7 +95,7 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1)
-    throw std::runtime_error("no random numbers: OpenSSL cannot read the system's source");
+    throw std::runtime_error("cannot make a token: OpenSSL has no source of random numbers");
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
   for (const auto byte : bytes) {

@@ -54,9 +54,9 @@ RecordedRun::RecordedRun(const std::filesystem::path& file)
   if (arrivals_)
     for (const auto* topic : {&topics::accepted_request.description, &topics::accepted_jog.description})
       if (!has_channel(reader_, *topic))
-        refuse(std::string{topic->name} +
-               ": no such topic; the programs that made the recording did not publish what the supervisor "
-               "accepted. Replay the recording with these programs");
+        refuse(
+            std::string{topic->name} +
+            ": no such topic: record all topics; replay a recording of an earlier release with that release");
   const auto attachments = reader_.attachments();
   const auto rig = std::ranges::find(attachments, "rig.toml", &recording::AttachmentRecord::name);
   if (rig == attachments.end()) {

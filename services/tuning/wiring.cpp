@@ -84,9 +84,9 @@ ProbeFinding examine_probe(const Motion& motion, const configuration::Rig& rig, 
     if ((first == forward ? volts : -volts) < 0) {
       finding.problems.push_back("encoder." + name(axis) + ".sign, drive." + name(axis) + ".sign: the " +
                                  name(axis) +
-                                 " moves against its voltage: one of both signs is wrong, or the counter or "
-                                 "the output of another axis is "
-                                 "connected");
+                                 " moves against its voltage: one of the two signs is wrong, or the counter "
+                                 "or the output of another "
+                                 "axis is connected");
       return finding;
     }
   }

@@ -87,7 +87,8 @@ TEST(RigZones, HaveTheSizesOfTheirShapeOnly) {
 TEST(RigZones, MustNotContainTheStart) {
   EXPECT_THAT(zone_problems(kMargins + "\n[[zone]]\nname = \"a\"\nshape = \"cylinder\"\nposition_x_m = "
                                        "0.4\nradius_m = 0.1\ntop_m = 1.5\n"),
-              testing::ElementsAre(HasSubstr("zone a contains the position of [start]")));
+              testing::ElementsAre(
+                  HasSubstr("zone a touches the space of a load at rest at the position of [start]")));
 }
 
 TEST(RigZones, BelowTheLoadAreOutOfReach) {
@@ -102,7 +103,8 @@ TEST(RigZones, MustNotContainAHomingPosition) {
       "radius_m = 0.01\nbottom_m = -2\ntop_m = -0.5\n",
       std::string{CRANE_RIGS} + "/homing_servo_to_go.toml");
   ASSERT_THAT(found, testing::Not(testing::IsEmpty()));
-  EXPECT_THAT(found.front(), HasSubstr("contains the homing position of the trolley"));
+  EXPECT_THAT(found.front(),
+              HasSubstr("touches the space of a load at rest at the homing position of the trolley"));
 }
 
 TEST(RigZones, MustNotContainThePositionAfterHomingAllAxes) {
@@ -121,12 +123,14 @@ TEST(RigZones, MustNotContainThePositionAfterHomingAllAxes) {
            "\nradius_m = 0.02\nbottom_m = -2\ntop_m = 0\n";
   };
   EXPECT_THAT(text_problems(text + post_at(slew_rad)),
-              testing::ElementsAre(HasSubstr("zone post contains the position after homing all axes")));
+              testing::ElementsAre(HasSubstr(
+                  "zone post touches the space of a load at rest at the position after homing all axes")));
   EXPECT_THAT(text_problems(text + post_at(slew_rad - 0.2)), testing::IsEmpty());
   const std::string back_off = "back_off_rad = 0.03";  // beyond the mark, in positive direction
   text.replace(text.find(back_off), back_off.size(), "back_off_rad = 0.2");
   EXPECT_THAT(text_problems(text + post_at(slew_rad + 0.2)),
-              testing::ElementsAre(HasSubstr("zone post contains the position after homing all axes")))
+              testing::ElementsAre(HasSubstr(
+                  "zone post touches the space of a load at rest at the position after homing all axes")))
       << "the axes rest beyond their marks";
 }
 

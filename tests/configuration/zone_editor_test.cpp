@@ -72,7 +72,7 @@ TEST(ZoneEditor, RefusesAZoneThatContradictsTheRig) {
   auto zone = mast("mast");
   zone.position_x_m = 0.3;
   EXPECT_THAT(refusal([&] { return with_zone(kTowerText, "rig.toml", zone); }),
-              HasSubstr("contains the position of [start]"));
+              HasSubstr("touches the space of a load at rest at the position of [start]"));
 }
 
 /// A library for regular expressions recursed once for each character of a line.

@@ -21,15 +21,15 @@ void check_drive(TomlTable& table, const plant::Coordinate& axis, const Drive& d
   if (drive.low_limit >= drive.high_limit) {
     table.problem(limit("low_limit"), "must be below " + limit("high_limit"));
   } else if (2 * drive.soft_margin >= drive.high_limit - drive.low_limit) {
-    table.problem(limit("soft_margin"), "must leave room between the limits");
+    table.problem(limit("soft_margin"), "must be less than half the distance between the limits");
   }
   const double travel = stopping_travel(drive, period_s);
   if (drive.reference_speed > drive.max_speed) {
     table.problem(key_in(kDriveFields, "reference_speed", axis), "must not exceed " + limit("max_speed"));
   } else if (drive.soft_margin < travel) {
-    table.problem(limit("soft_margin"),
-                  "must be at least " + std::to_string(travel) +
-                      ": v (t_detect + t_react + t_brake) + v^2/2a at the reference speed");
+    table.problem(limit("soft_margin"), "must be at least " + std::to_string(travel) +
+                                            ", the stopping distance from the reference speed "
+                                            "(docs/safety.md, the gate and the stopping distance)");
   }
 }
 

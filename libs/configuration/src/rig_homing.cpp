@@ -11,7 +11,7 @@ using control::Zero;
 
 void check_zero(TomlTable& encoder, const Rig& rig, const Drive& drive) {
   if (drive.zero == Zero::absolute && rig.board != "simulated")
-    encoder.problem("zero", "the counters of this board are incremental: start or homing");
+    encoder.problem("zero", "must be start or homing: the counters of this board are incremental");
 }
 
 /// Defaults of [homing.NAME]. @pre the mark has been read
@@ -73,7 +73,7 @@ void read_homing(TomlTable& root, Rig& rig) {
     if (!table.present()) continue;
     read_homing_of(table, axis, rig, i, drive);
     if (!drive.homes())
-      table.problem("is for an axis with zero = \"homing\" in [encoder." + std::string{axis.name} + "]");
+      table.problem("is permitted only with zero = \"homing\" in [encoder." + std::string{axis.name} + "]");
   }
 }
 

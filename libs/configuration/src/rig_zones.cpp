@@ -79,15 +79,15 @@ void check_homing_positions(TomlTable& table, const Rig& rig, const Zone& zone) 
     rest[i] = homing.position - homing.direction() * homing.back_off;
     if (!contains(rig, zone, home)) continue;
     found = true;
-    table.problem("position_x_m", "zone " + zone.name + " contains the homing position of the " +
-                                      std::string{plant::kCoordinates[i].name} +
-                                      ", with the radius of the load");
+    table.problem("position_x_m", "zone " + zone.name +
+                                      " touches the space of a load at rest at the homing position of the " +
+                                      std::string{plant::kCoordinates[i].name});
   }
   if (found || marks == rig.start.position) return;
   if (contains(rig, zone, marks) || contains(rig, zone, rest))
-    table.problem("position_x_m", "zone " + zone.name +
-                                      " contains the position after homing all axes, with the radius of the "
-                                      "load");
+    table.problem(
+        "position_x_m",
+        "zone " + zone.name + " touches the space of a load at rest at the position after homing all axes");
 }
 
 void check_place(TomlTable& table, const Rig& rig, const Zone& zone) {
@@ -97,7 +97,7 @@ void check_place(TomlTable& table, const Rig& rig, const Zone& zone) {
   }
   if (contains(rig, zone, rig.start.position))
     table.problem("position_x_m",
-                  "zone " + zone.name + " contains the position of [start], with the radius of the load");
+                  "zone " + zone.name + " touches the space of a load at rest at the position of [start]");
   check_homing_positions(table, rig, zone);
 }
 

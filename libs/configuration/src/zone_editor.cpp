@@ -95,9 +95,7 @@ std::optional<Quoted> value_of_extends(const std::string& text) {
 /// @return `text`, if it describes the rig `wanted`
 std::string checked(std::string text, const std::string& file, const Rig& wanted) {
   if (!(parse_rig(text, file) == wanted))
-    refuse(file,
-           "the zones of this file are not tables [[zone]] of its own (an inline array, or zones of a base "
-           "file)");
+    refuse(file, "the zones of this file are an inline array or belong to a base file");
   return text;
 }
 

@@ -86,11 +86,12 @@ std::string unpack(std::string_view packed, std::string_view compression, std::u
   if (declared == ZSTD_CONTENTSIZE_ERROR) throw FormatError("no zstd frame begins here");
   const bool known = declared != ZSTD_CONTENTSIZE_UNKNOWN;
   if (size > kMaxChunk) throw FormatError("unpacked size " + std::to_string(size) + " is above 64 MiB");
-  if (known && declared != size) throw FormatError("size does not match its content");
+  if (known && declared != size)
+    throw FormatError("the stated size of the chunk differs from its unpacked size");
   std::string out(size, '\0');
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
   if (ZSTD_isError(got) != 0U) throw FormatError(std::string{"zstd: "} + ZSTD_getErrorName(got));
-  if (got != size) throw FormatError("size does not match its content");
+  if (got != size) throw FormatError("the stated size of the chunk differs from its unpacked size");
   return out;
 }
 

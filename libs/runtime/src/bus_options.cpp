@@ -6,6 +6,7 @@
 
 #include "crane/configuration/rig.hpp"
 #include "crane/runtime/process.hpp"
+#include "crane/runtime/process_name.hpp"
 #include "crane/security/keys.hpp"
 
 namespace crane::runtime {
@@ -19,9 +20,9 @@ bool on_loop_back(const std::vector<std::string>& interfaces) {
 bus::Credentials credentials_for(const BusOptions& options, crane_Source source) {
   const auto* role = security::role_of(source);
   if (role == nullptr)
-    throw configuration::ConfigurationError({"--secure " + options.secure + ": a process of source " +
-                                             std::to_string(source) +
-                                             " has no role, so that no identity can be chosen"});
+    throw configuration::ConfigurationError({"--secure " + options.secure + ": processes of kind " +
+                                             std::string{process_name(source)} +
+                                             " have no role, so that no identity can be chosen"});
   const auto files =
       security::identity(std::filesystem::absolute(options.secure), role->name, options.vendor);
   if (auto problems = security::problems(files, options.vendor); !problems.empty())

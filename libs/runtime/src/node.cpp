@@ -91,9 +91,8 @@ void Node::report_drops(std::int64_t now_ns, const Ports& ports) {
   const bool disputed = ports.disputed(now_ns);
   if (disputed && !dispute_reported_)
     error("second_writer", "second writer on " + ports.dispute(now_ns),
-          "its samples are dropped: end it, or start one of the two cranes with another --crane or --domain, "
-          "then "
-          "`crane reset`");
+          "this process drops the samples of the second writer: end that writer, or start one of the two "
+          "cranes with another --crane or --domain, then `crane reset`");
   dispute_reported_ = disputed;
   if (now_ns < next_beat_ns_) return;
   report_other_versions();
@@ -114,7 +113,7 @@ void Node::report_other_versions() {
   const auto others = bus_->other_versions();
   for (std::size_t i = versions_reported_; i < others.size(); ++i)
     error("other_version", bus::refusal(others[i], bus_->options().messages_version),
-          "its samples are dropped: end it");
+          "this process drops the samples of that program: end that program");
   versions_reported_ = others.size();
 }
 

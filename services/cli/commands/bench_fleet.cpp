@@ -214,7 +214,8 @@ void add_bench_fleet(CLI::App& bench, Action& chosen) {
       ->capture_default_str();
   command->add_flag("--in-process", options->in_process,
                     "one process per control loop: crane up --in-process");
-  command->add_flag("--one-by-one", options->one_by_one, "start each crane when the crane before is ready");
+  command->add_flag("--one-by-one", options->one_by_one,
+                    "start each crane after the previous crane is ready");
   command->add_flag("--own-domains", options->own_domains,
                     "one domain per crane, from --domain on; default: all cranes in one domain");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();

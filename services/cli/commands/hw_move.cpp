@@ -163,7 +163,9 @@ void add_hw_jog(CLI::App& hw, Action& chosen) {
   command.add_option("--axis", options.axis, "trolley, slew or hoist")
       ->required()
       ->check(CLI::IsMember(plant::drive_names()));
-  command.add_option("--volts", options.drive_v, "voltage, -5 to 5; positive should move outward")
+  command
+      .add_option("--volts", options.drive_v,
+                  "voltage in V, -5 to 5; with correct signs, a positive voltage moves the axis outward")
       ->required();
   command
       .add_option("--distance", options.distance,

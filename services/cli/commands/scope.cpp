@@ -1,4 +1,4 @@
-/// crane scope: the ticks around the moment at which a condition becomes true, as curves and as CSV.
+/// crane scope: signals before and after the tick in which a condition becomes true, as curves and as CSV.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -223,12 +223,14 @@ constexpr const char* kFooter =
 
 void add_scope(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ScopeOptions>();
-  auto* command =
-      app.add_subcommand("scope", "Show the ticks around the moment at which a condition becomes true");
+  auto* command = app.add_subcommand(
+      "scope", "Plot signals before and after a trigger: the tick in which a condition becomes true");
   command->add_option("--trigger", options->trigger, "condition of topic fields")
       ->required()
       ->type_name("EXPRESSION");
-  command->add_option("--signal", options->signals, "field to show beside those of the trigger (repeatable)")
+  command
+      ->add_option("--signal", options->signals,
+                   "field to show in addition to those of the trigger (repeatable)")
       ->type_name("FIELD");
   add_time(*command, "--pre", options->pre_s, "time shown before the trigger; default 1s");
   add_time(*command, "--post", options->post_s, "time shown after the trigger; default 2s");

@@ -116,7 +116,8 @@ TEST(BrokenData, MissingValuesAreNamedAndDoNotAffectOtherColumns) {
 TEST(BrokenData, ASwingOfTheWrongSignIsRefused) {
   auto table = whole_file();
   for (double& swing : values_of(table, "swing_radial_rad")) swing = -swing;
-  EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("sign?")));
+  EXPECT_THAT(refusal_of(table),
+              AllOf(HasSubstr("swing_radial_rad"), HasSubstr("change the sign in the mapping")));
 }
 
 /// A tower whose jib slews in both directions: L tangential'' + g tangential = -(x slew'' + 2 x' slew').
@@ -152,7 +153,8 @@ TEST(BrokenData, ATangentialSwingOfTheWrongSignIsRefused) {
     (void)load_run(turning_tower(-1), rig, "tower.csv");
     FAIL() << "it was accepted";
   } catch (const DataError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("sign?")));
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("change the sign in the mapping")));
   }
 }
 

@@ -69,13 +69,13 @@ TEST(MeasuredData, InDegreesAreRefused) {
   Table table = plausible();
   for (double& value : column(table, "swing_radial_rad")) value *= 180 / 3.14159 * 2;
   EXPECT_THAT(problem_of(table),
-              AllOf(HasSubstr("data.csv"), HasSubstr("swing_radial_rad"), HasSubstr("degrees?")));
+              AllOf(HasSubstr("data.csv"), HasSubstr("swing_radial_rad"), HasSubstr("check for degrees")));
 }
 
 TEST(MeasuredData, InMillimetresAreRefused) {
   Table table = plausible();
   for (double& value : column(table, "trolley_position_m")) value *= 1000;
-  EXPECT_THAT(problem_of(table), AllOf(HasSubstr("trolley_position_m"), HasSubstr("millimetres?")));
+  EXPECT_THAT(problem_of(table), AllOf(HasSubstr("trolley_position_m"), HasSubstr("check for millimetres")));
 }
 
 TEST(MeasuredData, WithoutTheCommandThatMovedTheAxisAreRefused) {

@@ -118,7 +118,7 @@ TEST(SubsetOfColumns, ASupportAtRestMayBeAConstantOfTheMapping) {
                                                    {}, 12, [](double) { return 0.0; }, 0.2),
                                                {}),
                              {"trolley_voltage_v", "trolley_position_m"});
-  EXPECT_THAT(refused(table), HasSubstr("swing needs the motion that excites it"));
+  EXPECT_THAT(refused(table), HasSubstr("a radial swing needs the measured position of the trolley"));
   const auto mapping = parse_mapping("[columns]\ntrolley_position_m = { value = 1.0 }\n", "rest.toml");
   const Loaded loaded = load_run(canonical(table, mapping, "rest.csv"), subset_rig(), "rest.csv");
   ASSERT_EQ(loaded.runs.size(), 1U);
@@ -164,7 +164,7 @@ TEST(SubsetOfColumns, AnAxisAtRestMayFlickerBetweenNeighbouringCounts) {
 
 TEST(SubsetOfColumns, AMotionWithoutCommandAndSwingIsRefused) {
   EXPECT_THAT(refused(without(measured_with(1, 1.5), {"trolley_voltage_v", "swing_radial_rad"})),
-              HasSubstr("a motion alone determines nothing"));
+              HasSubstr("add this command, or a swing angle that the motion excites"));
 }
 
 TEST(SubsetOfColumns, RunsWithDifferentColumnsAreRefused) {
@@ -174,8 +174,8 @@ TEST(SubsetOfColumns, RunsWithDifferentColumnsAreRefused) {
     (void)diagnose(subset_rig(), {whole.runs.at(0)}, {part.runs.at(0)});
     FAIL() << "accepted";
   } catch (const DataError& error) {
-    EXPECT_THAT(error.what(),
-                AllOf(HasSubstr("part.csv: swing_radial_rad: missing"), HasSubstr("whole.csv has it")));
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("part.csv: swing_radial_rad: missing"),
+                                    HasSubstr("whole.csv has this column")));
   }
 }
 
@@ -236,7 +236,7 @@ TEST(MappingOfRows, ProblemsAreNamedWithFileLineAndRule) {
   } catch (const configuration::ConfigurationError& error) {
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("their.toml:2: to_s = 1: must be after from_s"),
-                      HasSubstr("columns.time_s.value"), HasSubstr("only a command has a unit"),
+                      HasSubstr("columns.time_s.value"), HasSubstr("is permitted for commands"),
                       HasSubstr("stretches.a.csv"), HasSubstr("load_mass_kg = -1: must be finite and > 0")));
   }
 }

@@ -118,7 +118,7 @@ void add_finding(const std::string& column, const char* what, const std::vector<
       std::string{what} == "spikes")
     findings.problem(
         column, std::to_string(rows) + " of " + std::to_string(of) + " values are spikes (" + named + ")",
-        "at most one in twenty may be broken");
+        "at most 5 % of the values may be spikes: check the sensor");
   else
     findings.note(column + ": " + what + " left out (" + named + ")");
 }

@@ -55,13 +55,14 @@ class Checks {
     }
     if (!any)
       findings_.problem("columns",
-                        "no position of trolley or slew and no swing angle of the rig is there; the hoist is "
-                        "not examined",
+                        "the file has neither a position of trolley or slew nor a swing angle of this rig "
+                        "(the hoist is not diagnosed)",
                         "see docs/data.md");
     find_commands();
     if (rig_.drives[plant::kTrolley].present && columns_.outputs[kRadialSwing].values != nullptr &&
         columns_.outputs[kTrolleyPosition].values == nullptr)
-      findings_.problem(kOutputNames[kTrolleyPosition], "missing", "swing needs the motion that excites it");
+      findings_.problem(kOutputNames[kTrolleyPosition], "missing",
+                        "a radial swing needs the measured position of the trolley");
     columns_.cable = {"cable_length_m", table_.find("cable_length_m")};
     columns_.stretch = table_.find(kStretchColumn);
     if (const auto* mass = table_.find(kLoadMassColumn); mass != nullptr && !mass->empty())
@@ -95,13 +96,13 @@ class Checks {
       const auto* position = columns_.outputs[axis].values;
       if (position == nullptr || columns_.commands[axis].values != nullptr) continue;
       if (any && range_of(*position) == 0) continue;
-      const std::string rule = std::string{kOutputNames[axis]} + " needs the command that moved it";
       if (any)
-        findings_.problem(columns_.commands[axis].name, "missing",
-                          rule + "; without any command the load is compared alone");
+        findings_.problem(
+            columns_.commands[axis].name, "missing",
+            "add this command, or omit the commands of both drives: then only the load is compared");
       else if (!swings)
         findings_.problem(columns_.commands[axis].name, "missing",
-                          rule + ", or a swing that it excites: a motion alone determines nothing");
+                          "add this command, or a swing angle that the motion excites");
       else
         alone = true;
     }
@@ -118,7 +119,7 @@ class Checks {
         judge_constant(static_cast<Output>(i));
       else if (i >= kRadialSwing && largest(*columns_.outputs[i].values) > kLargestSwing_rad)
         findings_.problem(columns_.outputs[i].name, "reaches " + number(largest(*columns_.outputs[i].values)),
-                          "a swing angle in radians stays below " + number(kLargestSwing_rad) + "; degrees?");
+                          "must not exceed " + number(kLargestSwing_rad) + " rad: check for degrees");
     }
     check_cable();
     check_slew_unit();
@@ -128,7 +129,8 @@ class Checks {
       if (const double most = largest(*columns_.commands[axis].values);
           most > 3 * rig_.drives[axis].volt_limit_v)
         findings_.problem(columns_.commands[axis].name, "reaches " + number(most) + " V",
-                          "the drive takes " + number(rig_.drives[axis].volt_limit_v) + " V");
+                          "must not exceed " + number(3 * rig_.drives[axis].volt_limit_v) +
+                              " V, three times volt_limit_v of the rig file");
     }
   }
 
@@ -141,7 +143,7 @@ class Checks {
     const bool measured = std::isfinite(range_of(*columns_.outputs[output].values));
     if (commanded || !measured)
       findings_.problem(columns_.outputs[output].name, "constant or empty",
-                        "a sensor that never changes says nothing");
+                        "check the sensor, or omit the column");
     else
       findings_.note(columns_.outputs[output].name + " stands still");
   }
@@ -162,7 +164,7 @@ class Checks {
     const double allowed = std::max(std::abs(drive.low_limit), std::abs(drive.high_limit));
     if (largest(*slew) > 4 * std::max(allowed, std::numbers::pi))
       findings_.problem(columns_.outputs[kSlewAngle].name, "reaches " + number(largest(*slew)),
-                        "the rig slews to " + number(allowed) + " rad; degrees?");
+                        "the rig file permits " + number(allowed) + " rad: check for degrees");
   }
 
   void check_travel() {
@@ -172,7 +174,7 @@ class Checks {
     const double travel = drive.high_limit - drive.low_limit;
     if (range_of(*trolley) > 5 * travel)
       findings_.problem(columns_.outputs[kTrolleyPosition].name, "moves over " + number(range_of(*trolley)),
-                        "the rig's travel is " + number(travel) + " m; millimetres?");
+                        "the rig file permits a travel of " + number(travel) + " m: check for millimetres");
   }
 
   static double largest(std::span<const double> values) {

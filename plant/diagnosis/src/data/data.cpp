@@ -48,17 +48,17 @@ class RunSplitter {
   std::vector<Run> runs() {
     if (grid_.row_s > kSlowestRow_s) {
       findings_.problem("time_s", "sampled every " + number(grid_.row_s) + " s",
-                        "at least 10 samples a second");
+                        "must be at most 0.1 s (10 samples per second)");
       return {};
     }
     if (!(grid_.row_s > kFastestRow_s)) {
       findings_.problem("time_s", "sampled every " + number(grid_.row_s) + " s",
-                        "at most 100000 samples a second; another unit?");
+                        "must be at least 1e-5 s (100 000 samples per second): check the unit of time_s");
       return {};
     }
     cut();
     if (runs_.empty() && findings_.problems.empty())
-      findings_.problem("time_s", "no piece without a gap lasts " + number(kShortest_s) + " s",
+      findings_.problem("time_s", "no range without a gap lasts " + number(kShortest_s) + " s",
                         "record longer");
     add_notes();
     return std::move(runs_);
@@ -142,7 +142,7 @@ class RunSplitter {
     if (t[rows.back()] - t[rows.front()] >
         kMostGridRowsPerRow * grid_.period_s * static_cast<double>(rows.size())) {
       findings_.problem("time_s", "rows come every " + number(grid_.row_s) + " s, and most are missing",
-                        "one in fifty has to be there");
+                        "at least one row in fifty must exist");
       return;
     }
     Run run = on_grid(columns_, rows, grid_, rig_.start.position[plant::kHoist], left_out_);

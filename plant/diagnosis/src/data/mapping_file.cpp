@@ -20,10 +20,10 @@ std::string canonical_names() {
 void read_unit(TomlTable& table, MappedColumn& mapped) {
   const bool command = mapped.canonical.ends_with("_voltage_v");
   if (!table.has("unit") && !table.has("per_volt")) return;
-  if (!command) table.problem("unit", "only a command has a unit of its own");
+  if (!command) table.problem("unit", "is permitted for commands (..._voltage_v) only");
   mapped.unit = table.choice("unit", {"V", "A", "N m", "N"}, "V");
   const double per_volt = table.number("per_volt", Range::positive());
-  if (table.has("factor")) table.problem("factor", "per_volt says it already");
+  if (table.has("factor")) table.problem("factor", "must not be given together with per_volt");
   mapped.factor = 1 / per_volt;
 }
 
@@ -32,7 +32,7 @@ MappedColumn read_column(TomlTable table, const std::string& canonical) {
   mapped.canonical = canonical;
   if (table.has("value")) {
     mapped.offset = table.number("value", Range::any());
-    if (canonical == "time_s") table.problem("value", "every row needs a time of its own");
+    if (canonical == "time_s") table.problem("value", "must not be given for time_s: time_s needs a column");
     return mapped;
   }
   mapped.column = table.text("column");

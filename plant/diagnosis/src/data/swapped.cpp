@@ -84,15 +84,17 @@ void find_swapped(const std::vector<Run>& runs, const configuration::Rig& rig, F
   }
   if (swapped)
     findings.problem(std::string{kOutputNames[kRadialSwing]} + ", " + kOutputNames[kTangentialSwing],
-                     "the trolley moves the tangential swing and not the radial one", "columns swapped?");
+                     "the tangential swing follows the trolley, the radial swing does not",
+                     "exchange the two columns");
   if (turned)
     findings.problem(kOutputNames[kRadialSwing],
                      "has the wrong sign: the load swings ahead of an accelerating trolley",
-                     "positive with the load towards the tower; sign?");
+                     "must be positive with the load towards the tower: change the sign in the mapping");
   if (turned_across)
     findings.problem(kOutputNames[kTangentialSwing],
                      "has the wrong sign: the load swings ahead of an accelerating jib",
-                     "positive with the load ahead in the direction of a positive slew angle; sign?");
+                     "must be positive with the load ahead in the direction of a positive slew angle: change "
+                     "the sign in the mapping");
 }
 
 }  // namespace crane::diagnosis

@@ -30,7 +30,7 @@ void add_problems(const std::string& what, const Runs& runs, double least_s, con
   constexpr double kLeastRate = 0.01, kLeastTravel = 0.005;
   if (total_s(runs) < least_s)
     problems.push_back((std::ostringstream{} << called(what, runs) << ": " << total_s(runs)
-                                             << " s in all: at least " << least_s << " s")
+                                             << " s in total: at least " << least_s << " s are required")
                            .str());
   bool moves = false;
   for (const PreparedRun& run : runs)
@@ -60,11 +60,12 @@ void require_same_columns(const Runs& train, const Runs& test) {
         const bool drive = output == kTrolleyPosition || output == kSlewAngle;
         if (run.has(output) != first.has(output))
           problems.push_back((run.has(output) ? first : run).name + ": " + kOutputNames[output] +
-                             ": missing: " + (run.has(output) ? run : first).name + " has it");
+                             ": missing: all runs need the same columns, and " +
+                             (run.has(output) ? run : first).name + " has this column");
         else if (drive && run.has(output) && run.commanded[output] != first.commanded[output])
           problems.push_back((run.commanded[output] ? first : run).name + ": command of the " +
-                             axis_of(output) + ": missing: " + (run.commanded[output] ? run : first).name +
-                             " has it");
+                             axis_of(output) + ": missing: all runs need the same commands, and " +
+                             (run.commanded[output] ? run : first).name + " has this command");
       }
     }
   std::sort(problems.begin(), problems.end());
