@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "cli/jog_moves.hpp"
-#include "cli/jog_session.hpp"
 #include "cli/operator_stick.hpp"
+#include "cli/stick_session.hpp"
 
 namespace crane::cli {
 
@@ -39,7 +39,7 @@ class JogLoop {
   bus::Bus& bus_;
   OperatorStick& stick_;
   JogLoopOptions options_;
-  JogSession session_;
+  StickSession session_;
   JogMoves moves_;
   bool deflected_ = false;  ///< at the last call of note_release()
   /// The last session has ended although the stick was deflected: the supervisor has ended it because of a

@@ -148,9 +148,9 @@ ApiAnswer Api::history(std::string_view query) const {
   ApiAnswer answer{.media_type = "application/octet-stream", .body = ""};
   if (parameters.contains("fault")) {
     const auto* fault = model_.faults().find(number_of<std::uint64_t>(parameters["fault"], "fault"));
-    if (fault == nullptr || !fault->moment.contains(topic))
+    if (fault == nullptr || !fault->surrounding_samples.contains(topic))
       return problem_answer(404, "the dashboard has no data of this fault");
-    answer.body = packed(fault->moment.at(topic));
+    answer.body = packed(fault->surrounding_samples.at(topic));
     return answer;
   }
   constexpr std::int64_t kEver_ns = std::numeric_limits<std::int64_t>::max();

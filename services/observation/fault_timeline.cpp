@@ -128,8 +128,10 @@ void FaultTimeline::put(Note note) {
     if (faults_.size() == kMostFaults) faults_.pop_front();
     const auto later = std::ranges::upper_bound(faults_, note.at_ns, {}, &Fault::last_ns);
     const auto at_ns = note.at_ns;
-    faults_.insert(
-        later, Fault{.number = next_number_++, .notes = {std::move(note)}, .last_ns = at_ns, .moment = {}});
+    faults_.insert(later, Fault{.number = next_number_++,
+                                .notes = {std::move(note)},
+                                .last_ns = at_ns,
+                                .surrounding_samples = {}});
     return;
   }
   if (merge(*joined, note)) return;
@@ -182,17 +184,18 @@ void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) 
 void FaultTimeline::keep_moments(std::int64_t log_now_ns, const History& history) {
   for (auto& fault : faults_) {
     const auto at_ns = fault.notes.front().at_ns;
-    if (fault.moment_taken || log_now_ns < at_ns + kAfter_ns || log_now_ns > at_ns + History::kLongest_ns)
+    if (fault.samples_stored || log_now_ns < at_ns + kAfter_ns || log_now_ns > at_ns + History::kLongest_ns)
       continue;
     for (std::size_t i = 0; i < topics::kAll.size(); ++i)
       if (topics::kAll[i].every_tick)
-        fault.moment[i] = history.between(i, at_ns - kBefore_ns, at_ns + kAfter_ns);
-    fault.moment_taken = true;
+        fault.surrounding_samples[i] = history.between(i, at_ns - kBefore_ns, at_ns + kAfter_ns);
+    fault.samples_stored = true;
     changed_ = true;
   }
   std::size_t kept = 0;
   for (auto& fault : std::views::reverse(faults_))
-    if (!fault.moment.empty() && ++kept > kMostMoments) fault.moment.clear();
+    if (!fault.surrounding_samples.empty() && ++kept > kMostFaultsWithSamples)
+      fault.surrounding_samples.clear();
 }
 
 const Fault* FaultTimeline::find(std::uint64_t number) const {
@@ -209,7 +212,7 @@ ordered_json FaultTimeline::json() const {
                       {"left_out", fault.left_out},
                       {"cleared_ns", fault.cleared_ns == 0 ? ordered_json(nullptr)
                                                            : ordered_json(std::to_string(fault.cleared_ns))},
-                      {"has_data", !fault.moment.empty()}};
+                      {"has_data", !fault.surrounding_samples.empty()}};
     for (const auto& note : std::span{fault.notes}.subspan(1)) line["consequences"].push_back(json_of(note));
     list.push_back(std::move(line));
   }

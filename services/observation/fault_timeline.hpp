@@ -48,15 +48,15 @@ struct Fault {
   std::int64_t cleared_ns = 0;  ///< time of the next READY, ARMING, HOLD or RUN; 0: not yet
   /// Samples of the topics that are written every tick, from 10 s before to 5 s after the first cause, by
   /// topic; empty until then, and for old faults.
-  std::map<std::size_t, std::vector<SamplePtr>> moment;
-  bool moment_taken = false;
+  std::map<std::size_t, std::vector<SamplePtr>> surrounding_samples;
+  bool samples_stored = false;
 };
 
 class FaultTimeline {
  public:
   static constexpr std::int64_t kQuiet_ns = 3'000'000'000;
   static constexpr std::int64_t kBefore_ns = 10'000'000'000, kAfter_ns = 5'000'000'000;
-  static constexpr std::size_t kMostFaults = 100, kMostNotes = 40, kMostMoments = 8;
+  static constexpr std::size_t kMostFaults = 100, kMostNotes = 40, kMostFaultsWithSamples = 8;
 
   void add(const Sample& sample);
   /// Adds a note that no sample contains.

@@ -201,9 +201,10 @@ void add_trigger(Review& review) {
   for (const auto& fault : review.faults)
     if (std::ranges::find(fault.notes, trigger.what, &Note::what) != fault.notes.end()) return;
   const auto later = std::ranges::upper_bound(review.faults, trigger.at_ns, {}, &observation::Fault::last_ns);
-  review.faults.insert(
-      later,
-      {.number = review.faults.size() + 1, .notes = {trigger}, .last_ns = trigger.at_ns, .moment = {}});
+  review.faults.insert(later, {.number = review.faults.size() + 1,
+                               .notes = {trigger},
+                               .last_ns = trigger.at_ns,
+                               .surrounding_samples = {}});
 }
 
 Review review(const std::filesystem::path& file) {

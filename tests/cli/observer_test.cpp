@@ -6,12 +6,12 @@
 #include <sstream>
 #include <thread>
 
-#include "cli/jog_session.hpp"
 #include "cli/log_export.hpp"
 #include "cli/move_follower.hpp"
 #include "cli/operator_request.hpp"
 #include "cli/sample_json.hpp"
 #include "cli/snapshot.hpp"
+#include "cli/stick_session.hpp"
 #include "crane/recording/loss.hpp"
 #include "recorder/recorder.hpp"
 #include "temporary_directory.hpp"
@@ -224,7 +224,7 @@ TEST_F(Observers, RefusalCarriesItsReason) {
 TEST_F(Observers, SessionOfTheStickIsNotRequestedBeforeAStateHasArrived) {
   const FakeSupervisor supervisor{crane_, true, Planner::listening};
   auto requests = crane_.subscriber(topics::request);
-  JogSession session{tool_};
+  StickSession session{tool_};
   EXPECT_THROW((void)session.begin({true, false, false}, {.find_s = 0.05, .reply_s = 10}), NoAnswer);
   EXPECT_FALSE(requests.take());
 }
@@ -233,7 +233,7 @@ TEST_F(Observers, EverySampleOfTheStickContainsTheTickOfAState) {
   const FakeSupervisor supervisor{crane_, true, Planner::listening};
   auto jogs = crane_.subscriber(topics::jog);
   auto states = crane_.publisher(topics::state);
-  JogSession session{tool_};
+  StickSession session{tool_};
   msg::State state{};
   state.header.tick = 4711;
   ASSERT_TRUE(states.publish(state));

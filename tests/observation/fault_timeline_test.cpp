@@ -119,7 +119,7 @@ TEST(FaultTimeline, KeepsTheDataFromTenSecondsBeforeToFiveAfter) {
     history.add(sample_of(topics::state, msg::State{}, second * kSecond_ns));
   timeline.add(*status_at(20 * kSecond_ns, crane_STATE_ESTOP, crane_CAUSE_ESTOP_INPUT));
   timeline.poll(24 * kSecond_ns, 24 * kSecond_ns, traffic, history);
-  EXPECT_TRUE(timeline.faults()[0].moment.empty());
+  EXPECT_TRUE(timeline.faults()[0].surrounding_samples.empty());
   timeline.poll(25 * kSecond_ns, 25 * kSecond_ns, traffic, history);
   const auto& samples = timeline.find(1)->moment.at(0);
   ASSERT_EQ(samples.size(), 16U);

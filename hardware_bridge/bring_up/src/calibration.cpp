@@ -74,11 +74,11 @@ class Calibrating {
   [[nodiscard]] bool has_swing(std::size_t counter) const { return rig_.measures(counter); }
 
   /// One period of the load at rest.
-  std::array<SwingFit, kSwings> swings() {
-    std::array<SwingFit, kSwings> fits;
+  std::array<SwingFit, kSwingCount> swings() {
+    std::array<SwingFit, kSwingCount> fits;
     if (!has_swing(3) && !has_swing(4)) return fits;
-    const auto record = session_.watch(2 * std::numbers::pi / frequency_radps_);
-    for (std::size_t k = 0; k < kSwings; ++k) fits[k] = fit_swing(record, kDrives + k, frequency_radps_);
+    const auto record = session_.record_braked(2 * std::numbers::pi / frequency_radps_);
+    for (std::size_t k = 0; k < kSwingCount; ++k) fits[k] = fit_swing(record, kDrives + k, frequency_radps_);
     return fits;
   }
 
@@ -109,7 +109,7 @@ class Calibrating {
     options_.say(name + " moves");
     const auto before = swings();
     const auto motion = push(i);
-    session_.rest();
+    session_.tick_braked();
     const auto after = swings();
     const bool outward = yes("did the " + name + " move " + kOutward[i] + "?");
     const auto counts = motion.back().counts[i] - motion.front().counts[i];
@@ -161,8 +161,8 @@ class Calibrating {
   }
 
   /// Sign of the swing encoder: the load lags behind when the axis moves.
-  void judge_swing(std::size_t i, const Record& motion, const std::array<SwingFit, kSwings>& before,
-                   const std::array<SwingFit, kSwings>& after) {
+  void judge_swing(std::size_t i, const Record& motion, const std::array<SwingFit, kSwingCount>& before,
+                   const std::array<SwingFit, kSwingCount>& after) {
     const auto swing = swing_of(rig_, i);
     if (swing == 0) return;
     // The record has the signs and scales of the rig file.

@@ -31,7 +31,7 @@ class Running {
   Running(Session& session, const JogPlan& plan) : session_{session}, plan_{plan}, first_{session.sample()} {}
 
   Jog run() {
-    session_.wake();
+    session_.close_relay();
     first_ = session_.sample();
     jog_.record.push_back(first_);
     open();
@@ -44,7 +44,7 @@ class Running {
 
  private:
   const Sample& step(const Volts& drive_v, const std::array<bool, kDrives>& release) {
-    jog_.record.push_back(session_.awake(drive_v, release));
+    jog_.record.push_back(session_.tick_driven(drive_v, release));
     return jog_.record.back();
   }
 
@@ -68,8 +68,8 @@ class Running {
       const auto& now = step(drive_v, plan_.release);
       const double distance = farthest(begin, now);
       jog_.limit = new_limit(first_.inputs, now.inputs);
-      if (jog_.limit || distance >= plan_.distance || plan_.enough(now)) return;
-      if (distance < kStandstill && passed_s >= plan_.unseen_duration_s) return;
+      if (jog_.limit || distance >= plan_.distance || plan_.ends_when(now)) return;
+      if (distance < kStandstill && passed_s >= plan_.duration_without_motion_s) return;
     }
   }
 
@@ -105,8 +105,8 @@ std::vector<std::string> problems(const JogPlan& plan, const configuration::Rig&
                   limit_v);
     found.emplace_back(text);
   }
-  if (!(plan.distance > 0 && plan.distance <= kLongestJog)) {
-    std::snprintf(text, sizeof text, "distance = %g: must be in (0, %g]", plan.distance, kLongestJog);
+  if (!(plan.distance > 0 && plan.distance <= kFarthestJog)) {
+    std::snprintf(text, sizeof text, "distance = %g: must be in (0, %g]", plan.distance, kFarthestJog);
     found.emplace_back(text);
   }
   return found;

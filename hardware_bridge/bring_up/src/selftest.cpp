@@ -26,7 +26,7 @@ class SelftestMotions {
 
   Evidence run() {
     options_.progress("at rest");
-    session_.watch(0.2);
+    session_.record_braked(0.2);
     const auto inputs = session_.sample().inputs;
     evidence_.estop_pressed = inputs.estop_pressed;
     evidence_.relay_closed_at_rest = !inputs.watchdog_dropped;
@@ -40,7 +40,7 @@ class SelftestMotions {
     for (std::size_t i = 0; i < kDrives; ++i)
       if (rig_.drives[i].present && !counters_swing_) try_axis(i);
     if (!counters_swing_) try_unlocked();
-    session_.rest();
+    session_.tick_braked();
     return evidence_;
   }
 
@@ -52,12 +52,12 @@ class SelftestMotions {
 
   void try_relay() {
     options_.progress("watchdog relay");
-    session_.wake();
+    session_.close_relay();
     evidence_.relay_closed = !session_.sample().inputs.watchdog_dropped;
     for (std::size_t i = 0; i < kDrives; ++i)
       evidence_.axis[i].closed_in_use = session_.sample().inputs.brake_closed[i];
     evidence_.relay_limit_s = rig_.wiring.relay_timeout_s + 2 * rig_.period_s;
-    session_.watch(evidence_.relay_limit_s);
+    session_.record_braked(evidence_.relay_limit_s);
     evidence_.relay_dropped = session_.sample().inputs.watchdog_dropped;
   }
 
@@ -101,16 +101,16 @@ class SelftestMotions {
       if (moved_enough(i, jog) || swing_seen(motion.back(), before)) break;
     }
     if (!evidence_.axis[i].opened) return;
-    session_.rest();
+    session_.tick_braked();
     watch_load(i, motion, before);
   }
 
   [[nodiscard]] JogPlan plan(std::size_t i, double drive_v,
-                             const std::array<SwingFit, kSwings>& before) const {
+                             const std::array<SwingFit, kSwingCount>& before) const {
     JogPlan plan{.axis = i, .drive_v = drive_v, .distance = kPushDistance[i], .duration_s = 0.5};
     plan.release[i] = true;
     if (swing_of(rig_, i) != 0)
-      plan.enough = [this, i, &before, first = session_.sample()](const Sample& now) {
+      plan.ends_when = [this, i, &before, first = session_.sample()](const Sample& now) {
         return std::abs(now.coordinate[i] - first.coordinate[i]) < kStandstill && swing_seen(now, before);
       };
     return plan;
@@ -135,26 +135,26 @@ class SelftestMotions {
   }
 
   /// True when the push has added a visible swing.
-  [[nodiscard]] bool swing_seen(const Sample& now, const std::array<SwingFit, kSwings>& before) const {
-    for (std::size_t k = 0; k < kSwings; ++k)
+  [[nodiscard]] bool swing_seen(const Sample& now, const std::array<SwingFit, kSwingCount>& before) const {
+    for (std::size_t k = 0; k < kSwingCount; ++k)
       if (std::abs(now.coordinate[kDrives + k] - before[k].at(now.time_s, frequency_radps_)) > kSwingSeen_rad)
         return true;
     return false;
   }
 
-  [[nodiscard]] std::array<SwingFit, kSwings> swings() {
-    std::array<SwingFit, kSwings> fits;
+  [[nodiscard]] std::array<SwingFit, kSwingCount> swings() {
+    std::array<SwingFit, kSwingCount> fits;
     if (rig_.encoders[3].counts_per_unit <= 0 && rig_.encoders[4].counts_per_unit <= 0) return fits;
-    const auto record = session_.watch(period_of_load_s());
+    const auto record = session_.record_braked(period_of_load_s());
     for (std::size_t k = 0; k < kDrives; ++k) counter_fits_[k] = fit_swing(record, k, frequency_radps_);
-    for (std::size_t k = 0; k < kSwings; ++k) fits[k] = fit_swing(record, kDrives + k, frequency_radps_);
+    for (std::size_t k = 0; k < kSwingCount; ++k) fits[k] = fit_swing(record, kDrives + k, frequency_radps_);
     return fits;
   }
 
-  void watch_load(std::size_t i, const Record& motion, const std::array<SwingFit, kSwings>& before) {
+  void watch_load(std::size_t i, const Record& motion, const std::array<SwingFit, kSwingCount>& before) {
     auto& axis = evidence_.axis[i];
     const auto after = swings();
-    for (std::size_t k = 0; k < kSwings; ++k) {
+    for (std::size_t k = 0; k < kSwingCount; ++k) {
       axis.shifted_rad[k] = after[k].offset_rad - before[k].offset_rad;
       axis.swung_rad[k] =
           std::hypot(after[k].cosine_rad - before[k].cosine_rad, after[k].sine_rad - before[k].sine_rad);

@@ -47,13 +47,13 @@ const Sample& Session::tick(const bridge::Outputs& outputs) {
   return sample_;
 }
 
-const Sample& Session::rest() {
+const Sample& Session::tick_braked() {
   level_ = relay_closed_ = false;
   return tick({});
 }
 
-const Sample& Session::awake(const std::array<double, kDrives>& drive_v,
-                             const std::array<bool, kDrives>& release) {
+const Sample& Session::tick_driven(const std::array<double, kDrives>& drive_v,
+                                   const std::array<bool, kDrives>& release) {
   level_ = !level_;
   bridge::Outputs outputs{drive_v, release, level_};
   for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= rig_.drives[i].sign;
@@ -72,15 +72,15 @@ void Session::end(const std::string& why) {
   throw Ended(why + "; 0 V, brakes closed");
 }
 
-Record Session::watch(double duration_s) {
+Record Session::record_braked(double duration_s) {
   Record record;
-  for (double passed_s = 0; passed_s < duration_s; passed_s += rig_.period_s) record.push_back(rest());
+  for (double passed_s = 0; passed_s < duration_s; passed_s += rig_.period_s) record.push_back(tick_braked());
   return record;
 }
 
-void Session::wake() {
+void Session::close_relay() {
   constexpr double kCharging_s = 0.2;  // longest time of the charge pump until its relay closes
-  for (double passed_s = 0; passed_s < kCharging_s; passed_s += rig_.period_s) awake({}, {});
+  for (double passed_s = 0; passed_s < kCharging_s; passed_s += rig_.period_s) tick_driven({}, {});
 }
 
 }  // namespace crane::bring_up

@@ -179,7 +179,7 @@ class Judgement {
 
   void judge_missing_swing(std::size_t i, std::size_t swing) {
     const auto& axis = evidence_.axis[i];
-    const std::size_t other = kDrives + kSwings - 1 - (swing - kDrives);
+    const std::size_t other = kDrives + kSwingCount - 1 - (swing - kDrives);
     const bool other_swings =
         rig_.measures(other) && axis.swung_rad[other - kDrives] > kClearShare * std::abs(axis.expected_rad);
     if (other_swings) return add_swapped_encoders(swing, other);
@@ -201,7 +201,7 @@ class Judgement {
     const auto& axis = evidence_.axis[i];
     for (std::size_t k = 0; k < kDrives; ++k)
       if (k != i && std::abs(axis.moved[k]) > kStandstill) return k;
-    for (std::size_t k = 0; k < kSwings; ++k)  // a load swings back; an axis keeps its new position
+    for (std::size_t k = 0; k < kSwingCount; ++k)  // a load swings back; an axis keeps its new position
       if (std::abs(axis.shifted_rad[k]) > 2 * kNoSwing_rad) return kDrives + k;
     return {};
   }

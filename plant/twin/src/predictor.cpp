@@ -21,7 +21,7 @@ Predictor::Predictor(const plant::Parameters& parameters, const std::vector<plan
   step_s_ = period_s / steps_;
 }
 
-void Predictor::restart(const Known& now, const Mask& simulated) {
+void Predictor::restart(const MeasuredTick& now, const Mask& simulated) {
   simulated_ = simulated;
   plant::Locks locks;
   locks.axis = {!simulated[stepper::kTrolleyPosition], !simulated[stepper::kSlewAngle], true};
@@ -42,13 +42,13 @@ void Predictor::restart(const Known& now, const Mask& simulated) {
   predicted_ = now.reported;
 }
 
-std::array<stepper::Kinematics, kColumns> Predictor::given(const Known& now) const {
+std::array<stepper::Kinematics, kColumns> Predictor::given(const MeasuredTick& now) const {
   std::array<stepper::Kinematics, kColumns> kinematics;
   for (std::size_t i = 0; i < kColumns; ++i) kinematics[i].position = now.reported[i];
   return kinematics;
 }
 
-const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known& now) {
+const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const MeasuredTick& now) {
   integrator_->new_command(model_->drive_voltage(applied_v));
   const auto still = given(now);
   const auto cable = [&](double share) {

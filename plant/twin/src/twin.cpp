@@ -71,7 +71,7 @@ Twin::Twin(const configuration::Rig& rig, const Design& design)
     steps_.emplace_back(rig.period_s, design.horizon_s, least_jump(rig, i));
 }
 
-Known Twin::known(const Sample& sample) const {
+MeasuredTick Twin::known(const Sample& sample) const {
   const auto coordinate = [&](std::size_t counter) {
     const auto& encoder = rig_.encoders[counter];
     return encoder.counts_per_unit > 0
@@ -79,7 +79,7 @@ Known Twin::known(const Sample& sample) const {
                      encoder.rest_angle_rad
                : 0.0;
   };
-  Known now;
+  MeasuredTick now;
   for (std::size_t i = 0; i < kColumns; ++i) now.reported[i] = coordinate(kCoordinateOf[i]);
   now.rate = sample.rate;
   const bool measured = rig_.measures(plant::kHoist);
@@ -97,7 +97,7 @@ Mask Twin::free_columns(const Sample& sample) const {
           load && has(3) && rig_.kind == configuration::RigKind::tower};
 }
 
-bool Twin::usable(const Sample& sample, const Known& now) const {
+bool Twin::usable(const Sample& sample, const MeasuredTick& now) const {
   bool finite = std::isfinite(sample.cable_mps);
   for (const double value : sample.rate) finite = finite && std::isfinite(value);
   for (const double value : sample.applied_v) finite = finite && std::isfinite(value);
@@ -111,7 +111,7 @@ bool Twin::follows(const Sample& sample) const {
 
 const Judgement& Twin::step(const Sample& sample) {
   if (last_ && sample.epoch == last_->epoch && sample.tick <= last_->tick) return judgement_;
-  const Known now = known(sample);
+  const MeasuredTick now = known(sample);
   if (!sample.homed || !usable(sample, now)) {
     if (sample.homed) ++judgement_.gaps;
     last_.reset();
@@ -131,7 +131,7 @@ const Judgement& Twin::step(const Sample& sample) {
   return judgement_;
 }
 
-void Twin::restart(const Sample& sample, const Known& now) {
+void Twin::restart(const Sample& sample, const MeasuredTick& now) {
   last_ = sample;
   nominal_.restart(now, simulated_);
   for (Predictor& predictor : changed_) predictor.restart(now, simulated_);
@@ -143,7 +143,7 @@ void Twin::restart(const Sample& sample, const Known& now) {
   judgement_.residual = {};
 }
 
-void Twin::predict(const Known& now) {
+void Twin::predict(const MeasuredTick& now) {
   judgement_.predicted = nominal_.predict(last_->applied_v, now);
   bool finite = true;
   for (std::size_t i = 0; i < kColumns; ++i) {
@@ -169,7 +169,7 @@ void Twin::predict(const Known& now) {
   block_ = Block(changed_.size());
 }
 
-void Twin::accumulate(const Known& now) {
+void Twin::accumulate(const MeasuredTick& now) {
   ++block_.ticks;
   ++judgement_.judged_ticks;
   bool moving = false;

@@ -131,7 +131,7 @@ std::string yes_or_no(const Json& flag) { return flag.is_null() ? "-" : flag.get
 int probe(const LookOptions& options) {
   OpenBoard opened{options.board};
   bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
-  session.watch(0.1);
+  session.record_braked(0.1);
   const auto found = probed(opened.rig(), opened.board());
   if (options.json) {
     std::cout << found.dump(2) << '\n';

@@ -49,7 +49,7 @@ int jog(const HwMoveOptions& options) {
                          .drive_v = options.drive_v,
                          .distance = options.distance,
                          .duration_s = 2,
-                         .unseen_duration_s = 0.3};
+                         .duration_without_motion_s = 0.3};
   plan.release[plan.axis] = true;
   if (const auto problems = bring_up::problems(plan, opened.rig()); !problems.empty())
     throw configuration::ConfigurationError(problems);

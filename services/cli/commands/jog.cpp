@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "cli/inching.hpp"
-#include "cli/jog_session.hpp"
 #include "cli/number_range.hpp"
+#include "cli/stick_session.hpp"
 #include "cli/units.hpp"
 #include "commands.hpp"
 #include "crane/plant/coordinates.hpp"
@@ -36,7 +36,7 @@ int scripted(const JogOptions& options) {
   if (options.stick.micro)
     for (double& share : deflection) share *= kMicroSpeed;
   auto bus = open_bus(options.stick.bus, crane_SOURCE_OPERATOR);
-  JogSession session{bus};
+  StickSession session{bus};
   if (const auto answer = session.begin(options.selected); !answer.accepted) return report("jog", answer);
   session.measure();
   const bool stopped_early = session.drive(

@@ -7,8 +7,8 @@
 
 #include "cli/number_range.hpp"
 #include "cli/output_file.hpp"
+#include "cli/recorded_box.hpp"
 #include "cli/recording_argument.hpp"
-#include "cli/taught_box.hpp"
 #include "cli/text_table.hpp"
 #include "commands.hpp"
 #include "crane/bus/cdr.hpp"
@@ -101,13 +101,13 @@ void rewrite(const ZoneOptions& options, const std::filesystem::path& rig, Chang
 constexpr double kLongestGap_s = 0.2;
 
 /// @throws std::runtime_error when the recording is damaged or lacks positions: the box would be too small
-TaughtBox box_of(const ZoneOptions& options, const configuration::Rig& rig) {
+RecordedBox box_of(const ZoneOptions& options, const configuration::Rig& rig) {
   recording::McapReader reader{options.recording};
   const auto version = recording::messages_version(reader);
   const auto difference = recording::version_difference(version);
   if (version && !difference.empty()) throw std::runtime_error(options.recording + ": " + difference);
-  TaughtBox box{rig.clearance.suspension_height_m,
-                rig.measures(plant::kHoist) ? 0 : rig.start.position[plant::kHoist]};
+  RecordedBox box{rig.clearance.suspension_height_m,
+                  rig.measures(plant::kHoist) ? 0 : rig.start.position[plant::kHoist]};
   std::optional<std::int64_t> first_ns;
   std::optional<double> last_s;
   reader.for_each({.topics = {std::string{topics::state.description.name}}},

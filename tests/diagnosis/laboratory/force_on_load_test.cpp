@@ -6,7 +6,7 @@
 #include "force/swing_patterns.hpp"
 #include "laboratory/strange_lab.hpp"
 #include "study/study.hpp"
-#include "verdict/leftovers.hpp"
+#include "verdict/residual_patterns.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -117,8 +117,8 @@ struct Studied {
       : train{prepare(pushed(2 * seed, push), rig), prepare(pushed(2 * seed + 1, {}), rig)} {
     study.learn_disturbance();
   }
-  [[nodiscard]] SwingLeft left(std::uint64_t seed) const {
-    return swing_left(study, study.base_model(), 2 * kUsualAccuracy.values, seed);
+  [[nodiscard]] SwingResidual left(std::uint64_t seed) const {
+    return swing_residual(study, study.base_model(), 2 * kUsualAccuracy.values, seed);
   }
   configuration::Rig rig = gantry();
   Runs train, test;

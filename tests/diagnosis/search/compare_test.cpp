@@ -29,7 +29,7 @@ struct Compared : testing::Test {
     base.error[kTrolleyPosition] = 1;
     fitted.error[kTrolleyPosition] = 0.8;
   }
-  [[nodiscard]] bool is_possible() const { return possible(fitted, base, kSeed); }
+  [[nodiscard]] bool is_possible() const { return likelier_in_resamples(fitted, base, kSeed); }
   [[nodiscard]] bool is_accepted() const { return accepted(fitted, base, kCandidates); }
 
   Candidate effect, other;

@@ -142,7 +142,7 @@ double largest_change_from_rest(const configuration::Rig& rig, Output output, do
   return 0.5 * kForces * gain * rig.drives[output].volt_limit_v * time_s * time_s;
 }
 
-void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Findings& findings) {
+void omit_spikes_and_frozen(recording::Table& table, const configuration::Rig& rig, Findings& findings) {
   const auto* time_s = table.find("time_s");
   if (time_s == nullptr) return;
   const std::vector<double> times = *time_s;

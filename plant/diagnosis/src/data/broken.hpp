@@ -15,8 +15,8 @@ inline constexpr double kBeyondSensor = 10;
 /// as much as the largest voltage. 0 for a swing. m or rad
 [[nodiscard]] double largest_change_from_rest(const configuration::Rig& rig, Output output, double time_s);
 
-/// Sets broken values of the rig's outputs to NaN. A column with too many spikes is a problem.
+/// Sets spikes and frozen values of the rig's outputs to NaN. A column with too many spikes is a problem.
 /// @pre the times increase
-void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Findings& findings);
+void omit_spikes_and_frozen(recording::Table& table, const configuration::Rig& rig, Findings& findings);
 
 }  // namespace crane::diagnosis

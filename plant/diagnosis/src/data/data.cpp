@@ -212,7 +212,7 @@ Loaded load_run(const recording::Table& table, const configuration::Rig& rig, co
   Findings findings{.file = name, .problems = {}, .notes = {}};
   recording::Table kept = table;
   const bool timed = times_increase(kept, findings);
-  if (timed) leave_broken_out(kept, rig, findings);
+  if (timed) omit_spikes_and_frozen(kept, rig, findings);
   hold_axes_at_rest(kept, rig, findings);
   const Columns columns = checked_columns(kept, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);

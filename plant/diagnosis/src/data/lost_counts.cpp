@@ -218,8 +218,8 @@ std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const c
   return losing;
 }
 
-std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing,
-                          const configuration::Rig& rig) {
+std::vector<Run> without_count_losses(std::vector<Run> runs, const std::vector<LosingEncoder>& losing,
+                                      const configuration::Rig& rig) {
   for (const LosingEncoder& encoder : losing)
     for (Run& run : runs) {
       Rows rows = measured_rows(run, encoder.axis, drive_gain_of(rig, encoder.axis));

@@ -22,7 +22,8 @@ struct LosingEncoder {
                                                          const configuration::Rig& rig);
 
 /// The runs with the jumps of these encoders removed.
-[[nodiscard]] std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing,
-                                        const configuration::Rig& rig);
+[[nodiscard]] std::vector<Run> without_count_losses(std::vector<Run> runs,
+                                                    const std::vector<LosingEncoder>& losing,
+                                                    const configuration::Rig& rig);
 
 }  // namespace crane::diagnosis

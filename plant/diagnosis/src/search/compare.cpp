@@ -163,7 +163,7 @@ bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates
          !insignificant(likelihood_ratio_p_value(fitted, before), candidates);
 }
 
-bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
+bool likelier_in_resamples(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
   return block_wins(fitted.deviance, base.deviance, seed) > 1 - rules::kSignificant;
 }
 

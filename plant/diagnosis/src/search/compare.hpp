@@ -45,7 +45,7 @@ namespace crane::diagnosis {
 ///   exactly.
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
-[[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
+[[nodiscard]] bool likelier_in_resamples(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
 /// p value of the likelihood-ratio test of "the additional values of `fitted` have no effect". Twice the log
 /// likelihood ratio is chi-square distributed (Wilks, Ann. Math. Statist. 9 (1938) 60), for a composite

@@ -169,8 +169,8 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
   if (losing.empty()) {
     result = diagnosed(rig, as_measured, as_measured, losing, request);
   } else {
-    Data mended{prepared(put_back(std::move(train), losing, rig), rig, request.accuracy),
-                prepared(put_back(std::move(test), losing, rig), rig, request.accuracy)};
+    Data mended{prepared(without_count_losses(std::move(train), losing, rig), rig, request.accuracy),
+                prepared(without_count_losses(std::move(test), losing, rig), rig, request.accuracy)};
     hold_resting_drives(mended.train, mended.test);
     Study study(rig, mended.train, mended.test, request.excluded, request.accuracy);
     result = diagnosed(rig, study, as_measured, losing, request);

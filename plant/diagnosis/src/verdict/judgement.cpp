@@ -11,8 +11,8 @@
 #include "rules.hpp"
 #include "search/block_votes.hpp"
 #include "search/compare.hpp"
-#include "verdict/leftovers.hpp"
 #include "verdict/missing_force.hpp"
+#include "verdict/residual_patterns.hpp"
 #include "verdict/sentence.hpp"
 
 namespace crane::diagnosis {
@@ -94,7 +94,7 @@ class Judgement {
   bool has_unexplained_residual() {
     const double load = mean_loss(study_.load(), best_.train.load),
                  drives = mean_loss(study_.drive(), best_.train.drive);
-    Remainder& remainder = result_.remainder;
+    ResidualPattern& remainder = result_.remainder;
     if (std::max(load, drives) > rules::kWorstLoss) {
       remainder.predictable_fraction = 1 - rules::kWorstLoss / std::max(load, drives);
       remainder.from.push_back(std::string{"the residual of the "} +
@@ -106,7 +106,8 @@ class Judgement {
       remainder.from.push_back(lacking);
       return true;
     }
-    const auto [patterns, forces] = swing_left(study_, best_, accuracy_.permitted_share_of_swing(), seed_);
+    const auto [patterns, forces] =
+        swing_residual(study_, best_, accuracy_.permitted_share_of_swing(), seed_);
     for (std::size_t i = 0; i < std::min<std::size_t>(3, patterns.size()); ++i)
       remainder.from.push_back(described(patterns[i]));
     if (!patterns.empty()) {
@@ -116,7 +117,7 @@ class Judgement {
     // A force that acts a few times hides no cause that has been found beside it.
     for (const ShortForce& force : forces) remainder.from.push_back(described(force, study_.load().runs()));
     if (causes_.empty() && !forces.empty()) return true;
-    std::vector<Pattern> left = patterns_left(study_, all_, losing_, seed_);
+    std::vector<Pattern> left = residual_patterns(study_, all_, losing_, seed_);
     std::erase_if(left, [&](const Pattern& pattern) { return accuracy_.contains(pattern.what); });
     if (left.empty()) return false;
     remainder.predictable_fraction = left[0].what.fraction;
@@ -166,7 +167,8 @@ class Judgement {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
       if (fitted.effects.size() == best_.effects.size() && lacks_a_cause(fitted) &&
-          !differs_by_rarer_causes(fitted.effects, best_.effects) && possible(fitted, all_.base, seed_))
+          !differs_by_rarer_causes(fitted.effects, best_.effects) &&
+          likelier_in_resamples(fitted, all_.base, seed_))
         equals.push_back(&fitted);
     const std::vector<double> picked = shares_of_votes(best_, equals, all_.base, seed_);
     double left = 1;

@@ -20,7 +20,7 @@ double rms_motion(const Problem& problem, std::size_t output) {
 
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
   const double motion = rms_motion(problem, output);
-  if (motion <= rules::kSwings) return 0;
+  if (motion <= rules::kLeastSwingRms) return 0;
   double count = 0;
   for (const Window& window : problem.windows())
     count += static_cast<double>(problem.measured_rows(window, output));

@@ -8,17 +8,17 @@
 namespace crane::bring_up {
 
 inline constexpr double kLargestJog_v = 5;
-inline constexpr double kLongestJog = 0.5;  ///< m or rad
+inline constexpr double kFarthestJog = 0.5;  ///< largest distance of a push, m or rad
 
 struct JogPlan {
   std::size_t axis = 0;
-  double drive_v = 0;                   ///< V; positive: outward, according to the sign in the rig file
-  double distance = 0.05;               ///< the push ends when any drive has moved this far, m or rad
-  double duration_s = 1;                ///< longest duration of the push
-  double unseen_duration_s = 0.12;      ///< longest duration of a push without a measured motion
-  std::array<bool, kDrives> release{};  ///< brakes to open; normally that of the axis
+  double drive_v = 0;                       ///< V; positive: outward, according to the sign in the rig file
+  double distance = 0.05;                   ///< the push ends when any drive has moved this far, m or rad
+  double duration_s = 1;                    ///< longest duration of the push
+  double duration_without_motion_s = 0.12;  ///< longest duration of a push without a measured motion
+  std::array<bool, kDrives> release{};      ///< brakes to open; normally that of the axis
   /// Called at every tick of the push; true ends the push.
-  std::function<bool(const Sample&)> enough = [](const Sample&) { return false; };
+  std::function<bool(const Sample&)> ends_when = [](const Sample&) { return false; };
 };
 
 /// @return problems of the plan as "name = value: rule"; empty when there are none

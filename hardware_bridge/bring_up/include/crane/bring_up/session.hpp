@@ -54,19 +54,20 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// Runs one tick at 0 V with closed brakes, without toggling the watchdog output. @throws Ended
-  const Sample& rest();
+  const Sample& tick_braked();
   /// Runs one tick and toggles the watchdog output. The relay opens and the brakes close when this program is
-  /// suspended for longer than relay_timeout_s of the rig file. The motion is then over: the next toggle
-  /// would release the brakes again.
+  /// suspended for longer than relay_timeout_s of the rig file. The session then ends, because the next
+  /// toggle would release the brakes again.
   /// @throws Ended, also when the relay has opened, or the tick lasted longer than relay_timeout_s
   /// @param drive_v  V; the session applies the sign of the drive in the rig file: a positive voltage moves
   ///   the axis outwards
-  const Sample& awake(const std::array<double, kDrives>& drive_v, const std::array<bool, kDrives>& release);
+  const Sample& tick_driven(const std::array<double, kDrives>& drive_v,
+                            const std::array<bool, kDrives>& release);
 
-  /// Calls rest() for at least `duration_s`.
-  Record watch(double duration_s);
+  /// Calls tick_braked() for at least `duration_s`.
+  Record record_braked(double duration_s);
   /// Toggles the watchdog output with closed brakes for 0.2 s, in which the relay closes.
-  void wake();
+  void close_relay();
 
   [[nodiscard]] const Sample& sample() const { return sample_; }
   [[nodiscard]] const configuration::Rig& rig() const { return rig_; }
@@ -83,7 +84,7 @@ class Session {
   std::int64_t period_ns_;
   std::int64_t time_ns_ = 0;
   bool level_ = false;
-  bool relay_closed_ = false;  ///< in the awake tick before; false after a tick at rest
+  bool relay_closed_ = false;  ///< in the previous driven tick; false after a braked tick
   std::array<bridge::CountUnwrapper, kCounters> unwrapper_;
   Sample sample_;
 };

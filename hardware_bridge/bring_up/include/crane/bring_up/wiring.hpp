@@ -18,7 +18,7 @@ namespace crane::bring_up {
 inline constexpr double kStandstill = 1e-3;
 /// Largest swing that counts as no swing: about 15 counts of the encoders of the Virginia Tech rig.
 inline constexpr double kNoSwing_rad = 4e-3;
-inline constexpr std::size_t kSwings = 2;
+inline constexpr std::size_t kSwingCount = 2;
 
 /// Evidence from the pushes of one axis.
 struct AxisEvidence {
@@ -35,8 +35,8 @@ struct AxisEvidence {
   double push_v = 0;                         ///< largest voltage of the push
   double drift = 0;                          ///< motion with open brake at 0 V, m or rad
   std::array<double, kDrives> moved{};       ///< motion by the counter of each axis, m or rad
-  std::array<double, kSwings> shifted_rad{};  ///< permanent change of each swing counter (angle at rest)
-  std::array<double, kSwings> swung_rad{};    ///< added swing
+  std::array<double, kSwingCount> shifted_rad{};  ///< permanent change of each swing counter at rest
+  std::array<double, kSwingCount> swung_rad{};    ///< added swing
   double expected_rad = 0;  ///< swing that the motion of the suspension point should add, sign of the encoder
   double share = 0;         ///< measured share of expected_rad (share_of())
   /// After the push, with closed brakes: swing that the counter of a drive shows, in the scale of the swing

@@ -72,7 +72,7 @@ struct Calibrated {
 };
 
 /// Residual of the extended model, and the variables that it depends on.
-struct Remainder {
+struct ResidualPattern {
   double predictable_fraction = 0;  ///< cross-validated
   std::vector<std::string> from;
 };
@@ -115,7 +115,7 @@ struct Diagnosis {
   std::vector<std::string> ambiguous_with;
   std::optional<NextExperiment> next_experiment;
   HeldOut held_out;
-  Remainder remainder;
+  ResidualPattern remainder;
   std::vector<Ranked> ranking;
   std::vector<Trace> traces;
   std::vector<plant::TermSetting> extension;  ///< terms to append to those of the rig

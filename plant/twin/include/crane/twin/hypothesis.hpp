@@ -18,7 +18,7 @@ struct CauseKind {
   std::vector<double> sizes;  ///< reference sizes; empty: no hypothesis
   bool either_sign;           ///< true: one hypothesis for each sign
   double shown_per_size;      ///< factor from `sizes` to the unit in `sizes_text`
-  const char* sizes_text;     ///< text that the document prints after `sizes`, or instead of `sizes`
+  const char* sizes_text;     ///< text of the document after `sizes`; without `sizes` the whole cell
   const char* meaning;
   const char* remedy;  ///< AXIS stands for the name of the axis
 };

@@ -16,7 +16,7 @@
 namespace crane::twin {
 
 /// Measured values of one tick.
-struct Known {
+struct MeasuredTick {
   PerColumn reported{}, rate{};  ///< m or rad; m/s or rad/s
   double cable_m = 1, cable_mps = 0;
 };
@@ -28,23 +28,23 @@ class Predictor {
   Predictor(const plant::Parameters& parameters, const std::vector<plant::TermSetting>& terms,
             double period_s, double horizon_s, const PerColumn& slip = {});
   /// Restarts at the measured state. @param simulated  columns that are predicted; the other columns are held
-  void restart(const Known& now, const Mask& simulated);
+  void restart(const MeasuredTick& now, const Mask& simulated);
   /// Predicts the sensor values one tick after the last restart() or predict(). `applied_v` acts during this
   /// tick.
   /// @pre restart() was called
-  const PerColumn& predict(const plant::PerAxis& applied_v, const Known& now);
+  const PerColumn& predict(const plant::PerAxis& applied_v, const MeasuredTick& now);
   /// Corrects the state with the measured values of the predicted tick.
   void correct(const PerColumn& reported);
   [[nodiscard]] const PerColumn& predicted() const { return predicted_; }
 
  private:
-  [[nodiscard]] std::array<stepper::Kinematics, kColumns> given(const Known& now) const;
+  [[nodiscard]] std::array<stepper::Kinematics, kColumns> given(const MeasuredTick& now) const;
 
   std::unique_ptr<plant::Model> model_;
   std::optional<stepper::StepIntegrator> integrator_;
   PerColumn slip_;
   Mask simulated_{};
-  Known before_;
+  MeasuredTick before_;
   PerColumn predicted_{};
   double position_gain_, rate_gain_;
   int steps_;

@@ -61,13 +61,13 @@ class Twin {
   [[nodiscard]] std::optional<Notice> take_notice();
 
  private:
-  [[nodiscard]] Known known(const Sample& sample) const;
+  [[nodiscard]] MeasuredTick known(const Sample& sample) const;
   [[nodiscard]] Mask free_columns(const Sample& sample) const;
-  [[nodiscard]] bool usable(const Sample& sample, const Known& now) const;
+  [[nodiscard]] bool usable(const Sample& sample, const MeasuredTick& now) const;
   [[nodiscard]] bool follows(const Sample& sample) const;
-  void restart(const Sample& sample, const Known& now);
-  void predict(const Known& now);
-  void accumulate(const Known& now);
+  void restart(const Sample& sample, const MeasuredTick& now);
+  void predict(const MeasuredTick& now);
+  void accumulate(const MeasuredTick& now);
   [[nodiscard]] bool could_be_push(std::size_t column) const;
   void watch_steps();
   void report();

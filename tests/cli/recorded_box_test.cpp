@@ -1,5 +1,5 @@
 // crane zone learn: the box around recorded places of the hook.
-#include "cli/taught_box.hpp"
+#include "cli/recorded_box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ msg::State state_at(double trolley_m, double slew_rad, double cable_m) {
   return state;
 }
 
-TEST(TaughtBox, EnclosesThePlacesOfTheHook) {
-  TaughtBox box{2, 0};
+TEST(RecordedBox, EnclosesThePlacesOfTheHook) {
+  RecordedBox box{2, 0};
   box.add(state_at(1, 0, 1));
   box.add(state_at(1.2, std::numbers::pi / 2, 1.5));
   const auto zone = box.zone("silo");
@@ -31,8 +31,8 @@ TEST(TaughtBox, EnclosesThePlacesOfTheHook) {
   EXPECT_NEAR(zone.top_m, 1, 1e-12);
 }
 
-TEST(TaughtBox, CountsTheSwingAndSkipsUnknownPositions) {
-  TaughtBox box{0, 1};
+TEST(RecordedBox, CountsTheSwingAndSkipsUnknownPositions) {
+  RecordedBox box{0, 1};
   auto state = state_at(1, 0, 0);
   state.swing_radial_rad = std::numbers::pi / 6;
   box.add(state);

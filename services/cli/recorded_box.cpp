@@ -1,11 +1,11 @@
-#include "cli/taught_box.hpp"
+#include "cli/recorded_box.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace crane::cli {
 
-void TaughtBox::add(const msg::State& state) {
+void RecordedBox::add(const msg::State& state) {
   const double cable_m = cable_m_ > 0 ? cable_m_ : state.cable_length_m;
   const double theta = state.swing_tangential_rad, phi = state.swing_radial_rad, slew = state.slew_angle_rad;
   const double along = state.trolley_position_m - cable_m * std::cos(theta) * std::sin(phi);
@@ -25,7 +25,7 @@ void TaughtBox::add(const msg::State& state) {
   }
 }
 
-control::Zone TaughtBox::zone(const std::string& name) const {
+control::Zone RecordedBox::zone(const std::string& name) const {
   return {.name = name,
           .shape = control::ZoneShape::box,
           .position_x_m = (low_[0] + high_[0]) / 2,

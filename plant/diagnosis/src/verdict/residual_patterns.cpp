@@ -1,4 +1,4 @@
-#include "verdict/leftovers.hpp"
+#include "verdict/residual_patterns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,8 +82,8 @@ bool counts_as_pattern(const Pattern& pattern, const Effects& effects) {
                     u.gain > rules::kPatternShareOfCause * pattern.of_weakest);
 }
 
-std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypotheses,
-                                   const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
+std::vector<Pattern> residual_patterns(const Study& study, const Hypotheses& hypotheses,
+                                       const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
   std::vector<Pattern> left;
   const Runs& runs = study.drive().runs();
   const Effects& effects = hypotheses.best.effects;
@@ -113,8 +113,8 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
   return left;
 }
 
-SwingLeft swing_left(const Study& study, const Fitted& best, double permitted, std::uint64_t seed) {
-  SwingLeft left;
+SwingResidual swing_residual(const Study& study, const Fitted& best, double permitted, std::uint64_t seed) {
+  SwingResidual left;
   const Problem& load = study.load();
   if (load.empty()) return left;
   const double window_s =

@@ -1,4 +1,4 @@
-#include "cli/jog_session.hpp"
+#include "cli/stick_session.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -9,13 +9,13 @@
 
 namespace crane::cli {
 
-JogSession::JogSession(bus::Bus& bus)
+StickSession::StickSession(bus::Bus& bus)
     : bus_{bus},
       jogs_{bus.publisher(topics::jog)},
       statuses_{bus.subscriber(topics::supervisor)},
       states_{bus.subscriber(topics::state)} {}
 
-Answer JogSession::begin(const std::array<bool, 3>& selected, const Patience& patience) {
+Answer StickSession::begin(const std::array<bool, 3>& selected, const Patience& patience) {
   accepted_ = false;
   hold_ticks_ = 0;
   await_state(patience.find_s);
@@ -26,7 +26,7 @@ Answer JogSession::begin(const std::array<bool, 3>& selected, const Patience& pa
 
 /// Waits for a state, because the supervisor treats a sample without a recent tick as late and then requires
 /// a release of the stick.
-void JogSession::await_state(double patience_s) {
+void StickSession::await_state(double patience_s) {
   tick_ = 0;
   const auto arrived = [this] {
     receive_states();
@@ -35,7 +35,7 @@ void JogSession::await_state(double patience_s) {
   if (!wait_until(bus_, patience_s, arrived)) throw NoAnswer("no state" + where_and_remedy(bus_));
 }
 
-void JogSession::receive_states() {
+void StickSession::receive_states() {
   while (const auto state = states_.take()) {
     tick_ = state->header.tick;
     const std::array now{state->trolley_position_m, state->slew_angle_rad, state->cable_length_m};
@@ -47,7 +47,7 @@ void JogSession::receive_states() {
   }
 }
 
-void JogSession::receive() {
+void StickSession::receive() {
   receive_states();
   while (const auto status = statuses_.take()) {
     if (status->move.request_id != id_) {
@@ -64,7 +64,7 @@ void JogSession::receive() {
   }
 }
 
-void JogSession::send(const std::optional<Deflection>& stick) {
+void StickSession::send(const std::optional<Deflection>& stick) {
   msg::Jog sample{};
   sample.header.tick = tick_;
   sample.request_id = id_;
@@ -74,8 +74,9 @@ void JogSession::send(const std::optional<Deflection>& stick) {
   (void)jogs_.publish(sample);  // a lost sample has the effect of silence
 }
 
-bool JogSession::drive(double timeout_s, bool stops, const std::function<std::optional<Deflection>()>& stick,
-                       const std::function<bool()>& over) {
+bool StickSession::drive(double timeout_s, bool stops,
+                         const std::function<std::optional<Deflection>()>& stick,
+                         const std::function<bool()>& over) {
   constexpr std::int64_t kEvery_ns = 20'000'000;
   const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(timeout_s * 1e9);
   for (;;) {
@@ -91,7 +92,7 @@ bool JogSession::drive(double timeout_s, bool stops, const std::function<std::op
   }
 }
 
-void JogSession::release(double timeout_s) {
+void StickSession::release(double timeout_s) {
   const bool rests = drive(
       timeout_s, false, [] { return std::nullopt; }, [this] { return in_hold(); });
   if (!rests)

@@ -20,9 +20,9 @@ struct Pattern {
 
 /// Patterns in the residual of the drives and lines in the residual of the swing, strongest first.
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
-[[nodiscard]] std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypotheses,
-                                                 const std::vector<LosingEncoder>& losing,
-                                                 std::uint64_t seed);
+[[nodiscard]] std::vector<Pattern> residual_patterns(const Study& study, const Hypotheses& hypotheses,
+                                                     const std::vector<LosingEncoder>& losing,
+                                                     std::uint64_t seed);
 
 /// True if the crane with these effects has an inner coordinate that oscillates freely. The effects then
 /// produce a line of the spectrum themselves, and the start of the oscillation is free in each window.
@@ -32,7 +32,7 @@ struct Pattern {
 [[nodiscard]] bool counts_as_pattern(const Pattern& pattern, const Effects& effects);
 
 /// Errors of the swing beside the best hypothesis that are not a random force.
-struct SwingLeft {
+struct SwingResidual {
   /// The largest first. The rms of each is larger than both permitted changes of the swing: the given share
   /// of its rms motion in the windows, and kLeastBeside of the largest change by an effect of the hypothesis.
   std::vector<SwingPattern> patterns;
@@ -40,7 +40,7 @@ struct SwingLeft {
 };
 
 /// @param permitted share of the motion, > 0: accuracy of the rig file
-[[nodiscard]] SwingLeft swing_left(const Study& study, const Fitted& best, double permitted,
-                                   std::uint64_t seed);
+[[nodiscard]] SwingResidual swing_residual(const Study& study, const Fitted& best, double permitted,
+                                           std::uint64_t seed);
 
 }  // namespace crane::diagnosis

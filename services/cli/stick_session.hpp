@@ -17,9 +17,9 @@ struct Measured {
   double largest_swing_rad = 0;
 };
 
-class JogSession {
+class StickSession {
  public:
-  explicit JogSession(bus::Bus& bus);
+  explicit StickSession(bus::Bus& bus);
 
   /// Waits for a sample of crane/state, because every sample of crane/jog contains its tick. Then requests a
   /// session for the selected axes.

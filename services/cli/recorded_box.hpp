@@ -6,11 +6,11 @@
 namespace crane::cli {
 
 /// Box around the recorded positions of the hook, in coordinates of the ground.
-class TaughtBox {
+class RecordedBox {
  public:
   /// @param suspension_height_m  height of the jib above the ground, from the rig file
   /// @param cable_m  constant cable length of the rig file; 0: the samples contain the measured length
-  TaughtBox(double suspension_height_m, double cable_m)
+  RecordedBox(double suspension_height_m, double cable_m)
       : suspension_height_m_{suspension_height_m}, cable_m_{cable_m} {}
   /// Extends the box to the hook, at the end of the cable, (2.11) of H. M. Omar, Control of Gantry and Tower
   /// Cranes. Skips and counts a sample with an unknown position or a value that is not finite.
