@@ -31,7 +31,7 @@ const control::Controller kOwnLaw{"own_law", "state feedback with constant gains
 void report(const control::Controller& controller) {
   const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   const auto scenario = experiment::load_scenario(stack::find_scenario("maneuver_1"), &rig);
-  const auto started = experiment::started_by(rig, scenario);
+  const auto started = experiment::with_start_of(rig, scenario);
   experiments::TickLog log{std::nullopt};  // no recording, only the table
   const auto outcome = experiments::run_in_process(started, controller, scenario, log);
   const auto metrics = experiment::evaluate(experiment::samples_from(log.table(outcome.hold_tick)),

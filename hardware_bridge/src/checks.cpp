@@ -84,7 +84,7 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   const auto& history = *input.history;
   const auto ticks = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s)), 1, History::kLength - 1);
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     if (!history[0].observation.unknown[i] || !requests_motion(*input.command, i)) return false;
     if (!input.command->homing[i] ||
         !(std::abs(input.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding))
@@ -99,7 +99,7 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
 /// An axis is beyond a hard limit, or cannot stop before it: x +- (v t_brake + v^2 / 2a).
 bool position(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     if (!requests_motion(*input.command, i) || (*input.history)[0].observation.unknown[i]) return false;
     const double x = (*input.history)[0].observation.coordinate[i];
     const double v = speed(parameters, input, i);
@@ -112,7 +112,7 @@ bool position(const LastLineParameters& parameters, const CheckInput& input) noe
 
 bool overspeed(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   constexpr double kSupervisorMargin = 1.1;
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     return !(std::abs(speed(parameters, input, i)) <= kSupervisorMargin * axis.max_speed);
   });
 }
@@ -144,7 +144,7 @@ bool encoder_jump(const LastLineParameters& parameters, const CheckInput& input)
 }
 
 /// True when the homing mark operates farther than `back_off` from its position.
-bool mark_disagrees(const AxisLine& axis, const CheckInput& input, std::size_t i) noexcept {
+bool mark_disagrees(const AxisCheckParameters& axis, const CheckInput& input, std::size_t i) noexcept {
   const auto& history = *input.history;
   if (!axis.homes() || history.size() < 2 || history[1].observation.unknown[i]) return false;
   if (history[0].observation.mark[i] == history[1].observation.mark[i]) return false;
@@ -157,7 +157,7 @@ bool mark_disagrees(const AxisLine& axis, const CheckInput& input, std::size_t i
 /// A limit switch is a reference mark: if the switch is pressed at a measured position far from the limit,
 /// the encoder has lost counts.
 bool counts_lost(const LastLineParameters& parameters, const CheckInput& input, std::size_t i) noexcept {
-  const AxisLine& axis = parameters.axis[i];
+  const AxisCheckParameters& axis = parameters.axis[i];
   const auto& observation = (*input.history)[0].observation;
   if (!axis.present || observation.unknown[i]) return false;
   return (observation.limit_low[i] && observation.coordinate[i] > axis.low_limit + axis.soft_margin) ||
@@ -166,12 +166,13 @@ bool counts_lost(const LastLineParameters& parameters, const CheckInput& input, 
 }
 
 bool lost_counts(const LastLineParameters& parameters, const CheckInput& input) noexcept {
-  return any_axis(parameters,
-                  [&](std::size_t i, const AxisLine& /*axis*/) { return counts_lost(parameters, input, i); });
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& /*axis*/) {
+    return counts_lost(parameters, input, i);
+  });
 }
 
 bool braked_motion(const LastLineParameters& parameters, const CheckInput& input) noexcept {
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     return input.braked_at[i] &&
            std::abs((*input.history)[0].observation.coordinate[i] - *input.braked_at[i]) > axis.brake_slip;
   });
@@ -198,8 +199,8 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
 /// True when an axis with known position must have moved by more than kVisible without a change of its
 /// counter. The distance is a lower bound: from rest, smallest gain, 1.5 times the friction, largest force of
 /// the load.
-bool motion_is_missing(const LastLineParameters& parameters, const AxisLine& axis, const History& history,
-                       std::size_t i) {
+bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckParameters& axis,
+                       const History& history, std::size_t i) {
   constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
   double distance = 0, speed = 0;
   for (std::size_t age = ticks_without_motion(history, i); age-- > 0;) {
@@ -221,11 +222,11 @@ bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& inpu
   const auto window = static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s));
   const auto ticks = std::clamp<std::size_t>(window, 2, History::kLength - 1);
   const auto& history = *input.history;
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     if (!history[0].observation.unknown[i]) return motion_is_missing(parameters, axis, history, i);
     if (ticks_without_motion(history, i) < ticks) return false;
     for (std::size_t age = 0; age < ticks; ++age)
-      if (std::abs(history[age].observation.applied_v[i]) < axis.creeping_motion_v) return false;
+      if (std::abs(history[age].observation.applied_v[i]) < axis.certain_homing_motion_v) return false;
     return true;
   });
 }
@@ -240,7 +241,7 @@ double unexplained_v(const LastLineParameters& parameters, const CheckInput& inp
   };
   const std::size_t span = ticks(0.05, 14), remembered = ticks(0.12, 24);
   const auto& history = *input.history;
-  const AxisLine& axis = parameters.axis[i];
+  const AxisCheckParameters& axis = parameters.axis[i];
   if (history.size() < age + remembered + 2) return 0;
   const double v = speed(parameters, input, i, age);
   const double side = v > 0 ? 1 : -1;
@@ -259,7 +260,7 @@ double unexplained_v(const LastLineParameters& parameters, const CheckInput& inp
 /// axis. The margin covers the force of the load.
 bool drive_response(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   constexpr std::size_t kInRow = 3;
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+  return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     for (std::size_t age = 0; age < kInRow; ++age)
       if (age < input.history->size() && !(*input.history)[age].released[i]) return false;
     for (std::size_t age = 0; age < kInRow; ++age)

@@ -67,7 +67,7 @@ void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Observat
     return;
   }
   if (!commanded_closed_[axis]) {
-    const AxisLine& line = parameters_.axis[axis];
+    const AxisCheckParameters& line = parameters_.axis[axis];
     constexpr double kReserve = 1.5, kReserve_s = 0.05;
     const double moved =
         history_.size() > 0 ? observation.coordinate[axis] - history_[0].observation.coordinate[axis] : 0;

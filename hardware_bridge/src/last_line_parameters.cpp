@@ -8,7 +8,7 @@ namespace crane::bridge {
 namespace {
 
 /// Smallest gain: with the whole load mass; largest gain: without load.
-void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
+void set_gains(AxisCheckParameters& axis, std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double load_kg = crane.load_mass_kg;
   if (i == plant::kTrolley) {
@@ -36,19 +36,19 @@ double load_pull_v(std::size_t i, const configuration::Rig& rig) {
   return torque_nm / (crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv);
 }
 
-AxisLine axis_line(const configuration::Rig& rig, std::size_t i) {
+AxisCheckParameters axis_check_parameters(const configuration::Rig& rig, std::size_t i) {
   const auto& drive = rig.drives[i];
   const auto& friction = rig.design.friction[i];
-  AxisLine axis;
+  AxisCheckParameters axis;
   static_cast<control::DriveLimits&>(axis) = drive;
   if (!drive.present) return axis;
   // Margins: temperature and dust raise the friction by up to 50 %; offsets are up to 0.5 V.
-  constexpr double kOffset_v = 0.5, kFrictionMargin = 1.5, kCertainCreep_v = 0.8;
+  constexpr double kOffset_v = 0.5, kFrictionMargin = 1.5, kCertainHoming_v = 0.8;
   constexpr double kResponse_v = 2.5;  // chosen: more than offset, ripple and gain error of a sound drive
   const double friction_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                       friction.stiction_positive_v, friction.stiction_negative_v});
   axis.certain_motion_v = kOffset_v + kFrictionMargin * friction_v + load_pull_v(i, rig);
-  axis.creeping_motion_v = kCertainCreep_v + friction_v;
+  axis.certain_homing_motion_v = kCertainHoming_v + friction_v;
   axis.response_margin_v = std::max(kResponse_v, load_pull_v(i, rig));
   set_gains(axis, i, rig);
   return axis;
@@ -60,7 +60,7 @@ LastLineParameters last_line_parameters(const configuration::Rig& rig) {
   LastLineParameters parameters;
   parameters.period_s = rig.period_s;
   parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.ticks_in(rig.limits.stale_after_s));
-  for (std::size_t i = 0; i < kDrives; ++i) parameters.axis[i] = axis_line(rig, i);
+  for (std::size_t i = 0; i < kDrives; ++i) parameters.axis[i] = axis_check_parameters(rig, i);
   constexpr double kSupervisorMargin = 1.5, kLargest_rad = 1.55;
   parameters.swing_limit_rad = std::min(kSupervisorMargin * rig.limits.swing_limit_rad, kLargest_rad);
   // Twice the largest rate of a free swing with this amplitude on the shortest cable.

@@ -108,7 +108,7 @@ void add_options(CLI::App& app, Options& options) {
 
 int run(const Options& options) {
   runtime::install_stop_signals();
-  if (options.parent != 0) runtime::die_with(options.parent);
+  if (options.parent != 0) runtime::end_with_parent(options.parent);
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
   if (error || ::access(options.directory.c_str(), W_OK) != 0)

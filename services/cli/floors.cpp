@@ -45,7 +45,7 @@ using Role = std::function<void(FloorBoard&)>;
 /// Requests the scheduling of the loop. Threads that this thread starts later inherit it.
 void schedule(FloorBoard& board, int priority) {
   if (priority <= 0) return;
-  runtime::end_when_spinning();
+  runtime::limit_spin_time();
   const sched_param parameters{.sched_priority = priority};
   board.fifo = ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
 }

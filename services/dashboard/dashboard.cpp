@@ -87,7 +87,7 @@ std::string address_of(const std::string& listen, unsigned short port) {
 int run(const Options& options) {
   runtime::install_stop_signals();
   ::setpriority(PRIO_PROCESS, 0, kNiceness);
-  if (options.parent != 0) runtime::die_with(options.parent);
+  if (options.parent != 0) runtime::end_with_parent(options.parent);
   check_address(options.listen);
   AccessRules rules{.token = options.token_file.empty() ? "" : read_or_make_token(options.token_file),
                     .host_names = options.host_names,

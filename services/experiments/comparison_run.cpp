@@ -58,7 +58,7 @@ class Crew {
 
 experiment::ComparedRun simulate(const PlannedRun& plan) {
   return simulate(plan,
-                  experiment::changed_by(experiment::started_by(plan.rig, plan.scenario), plan.variant));
+                  experiment::changed_by(experiment::with_start_of(plan.rig, plan.scenario), plan.variant));
 }
 
 experiment::ComparedRun simulate(const PlannedRun& plan, const configuration::Rig& started) {

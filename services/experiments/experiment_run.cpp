@@ -13,7 +13,7 @@
 #include "crane/runtime/in_process.hpp"
 #include "crane/simulator/component.hpp"
 #include "crane/twin/component.hpp"
-#include "experiments/started_rig_file.hpp"
+#include "experiments/rig_at_start_file.hpp"
 #include "stack/child_processes.hpp"
 #include "stack/launch.hpp"
 #include "stack/stack.hpp"
@@ -133,11 +133,11 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   if (options.plant == stack::Plant::hardware) require_rehearsal(rig);
   const auto& controller = runtime::chosen_controller(options.controller, rig);
   const auto scenario = experiment::load_scenario(options.scenario, &rig);
-  const auto started = experiment::changed_by(experiment::started_by(rig, scenario), options.variant);
+  const auto started = experiment::changed_by(experiment::with_start_of(rig, scenario), options.variant);
   require_other_files(options);
   fs::create_directories(options.directory);
   const auto rig_file = options.directory / kRigFile;
-  write_started_rig(rig_file, started);
+  write_rig_at_start(rig_file, started);
 
   std::optional<configuration::Rig> twin;
   if (options.twin) twin = configuration::load_rig(*options.twin);
@@ -148,7 +148,7 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   result.controller = controller.name;
   result.rig = rig.name;
   result.variant = options.variant;
-  log.describe(origin_of(options, result), started_rig_text(started));
+  log.describe(origin_of(options, result), rig_at_start_text(started));
   result.outcome = options.in_process
                        ? run_in_process(started, controller, scenario, log, options.plant,
                                         twin ? &*twin : nullptr, options.integrator)

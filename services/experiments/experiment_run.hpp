@@ -42,7 +42,7 @@ struct ExperimentResult {
 ///   recording::WriteError, plot::PictureError
 [[nodiscard]] ExperimentResult run_experiment(const ExperimentOptions& options);
 
-/// Runs a scenario in this process. @param started  result of experiment::started_by(). @throws RunError
+/// Runs a scenario in this process. @param started  result of experiment::with_start_of(). @throws RunError
 [[nodiscard]] RunOutcome run_in_process(const configuration::Rig& started,
                                         const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,

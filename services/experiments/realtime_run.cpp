@@ -10,7 +10,7 @@
 #include "crane/boards/board_uses.hpp"
 #include "crane/files/temporary_directory.hpp"
 #include "experiments/realtime_session.hpp"
-#include "experiments/started_rig_file.hpp"
+#include "experiments/rig_at_start_file.hpp"
 #include "stack/launch.hpp"
 
 namespace crane::experiments {
@@ -150,7 +150,7 @@ RealtimeRun RealtimeRuns::run(const std::filesystem::path& rig_file, const std::
   rig.start.position = end_->position;
   const files::TemporaryDirectory directory{"crane_run"};
   const auto started = directory.path() / "rig.toml";
-  write_started_rig(started, rig);
+  write_rig_at_start(started, rig);
   return run_from_start(started, controller, scenario);
 }
 

@@ -11,11 +11,11 @@ static_assert(static_cast<int>(control::AdaptationFreeze::implausible) == crane_
 
 msg::AdaptedFriction direction_of(const control::DirectionReport& report) noexcept {
   return {.coulomb_v = report.estimate.coulomb_v,
-          .coulomb_std_v = report.deviation.coulomb_v,
+          .coulomb_std_v = report.std_dev.coulomb_v,
           .viscous_v = report.estimate.viscous_vspm,
-          .viscous_std_v = report.deviation.viscous_vspm,
+          .viscous_std_v = report.std_dev.viscous_vspm,
           .static_v = report.estimate.static_v,
-          .static_std_v = report.deviation.static_v,
+          .static_std_v = report.std_dev.static_v,
           .used_coulomb_v = report.used.coulomb_v,
           .used_viscous_v = report.used.viscous_vspm,
           .used_static_v = report.used.static_v,
@@ -48,12 +48,12 @@ msg::Adaptation adaptation_sample(const msg::Header& header,
   for (std::size_t i = 0; i < control::kAdaptedAxes; ++i) {
     sample.axis[i] = axis_of(report.axis[i]);
     sample.swing_offset_rad[i] = report.swing_offset_rad[i].value;
-    sample.swing_offset_std_rad[i] = report.swing_offset_rad[i].deviation;
+    sample.swing_offset_std_rad[i] = report.swing_offset_rad[i].std_dev;
   }
   sample.load_mass_kg = report.load_mass_kg.value;
-  sample.load_mass_std_kg = report.load_mass_kg.deviation;
+  sample.load_mass_std_kg = report.load_mass_kg.std_dev;
   sample.pendulum_length_m = report.pendulum_length_m.value;
-  sample.pendulum_length_std_m = report.pendulum_length_m.deviation;
+  sample.pendulum_length_std_m = report.pendulum_length_m.std_dev;
   sample.moves = report.moves;
   return sample;
 }

@@ -53,7 +53,7 @@ std::string excitation_text(double at_s, const control::Excitation& excitation) 
   const std::string unit = plant::kCoordinates[excitation.axis].unit;
   std::string text = "\n[[excitation]]\nat_s = " + shortest(at_s) + "\naxis = \"" +
                      plant::kCoordinates[excitation.axis].name + "\"\nabout_" + unit + " = " +
-                     shortest(excitation.about) + "\n";
+                     shortest(excitation.mean_position) + "\n";
   if (excitation.duration_s > 0)
     text += "amplitudes_" + unit + " = " + array_of(excitation, &control::Sine::amplitude) +
             "\nfrequencies_hz = " + array_of(excitation, &control::Sine::frequency_hz) +
@@ -263,8 +263,8 @@ class Experiment {
 
   Steps run_steps(const std::string& name, const fs::path& rig, FrictionExperimentResult& result) {
     result.step = step_size();
-    control::Excitation up{.axis = options_.axis, .about = start_[options_.axis] + result.step};
-    control::Excitation down{.axis = options_.axis, .about = start_[options_.axis]};
+    control::Excitation up{.axis = options_.axis, .mean_position = start_[options_.axis] + result.step};
+    control::Excitation down{.axis = options_.axis, .mean_position = start_[options_.axis]};
     const auto table =
         run_part(name, rig,
                  scenario_text("a step in each direction, " + name, 2 * kStepSpacing_s) +

@@ -36,7 +36,7 @@ ProcessReplay::ProcessReplay(std::vector<runtime::ComponentSpec> components, con
       bus_{[this] {
         launch_.bus.crane += "_replay_" + std::to_string(::getpid());  // differs from that of a running crane
         auto own = runtime::bus_options(launch_.bus, "crane_replay", crane_SOURCE_MONITOR, 1);
-        own.confirms_soon = true;  // deliver() waits for every sample of the stick
+        own.fast_heartbeats = true;  // deliver() waits for every sample of the stick
         return bus::Bus{own};
       }()},
       replies_{bus_.subscriber(topics::reply)},

@@ -11,7 +11,7 @@ namespace crane::stack {
 OperatorRequest request_to_follow(const control::Excitation& excitation) {
   OperatorRequest wanted{.kind = crane_REQUEST_FOLLOW};
   wanted.selected[excitation.axis] = true;
-  wanted.target[excitation.axis] = excitation.about;
+  wanted.target[excitation.axis] = excitation.mean_position;
   for (const auto& sine : excitation.sines)
     wanted.sines.push_back({sine.amplitude, sine.frequency_hz, sine.phase_rad});
   wanted.duration_s = excitation.duration_s;

@@ -31,8 +31,8 @@ Run run_of(const Sweep& sweep, std::size_t number) {
   return run;
 }
 
-configuration::Rig started_rig(const Sweep& sweep, const Run& run) {
-  configuration::Rig rig = experiment::started_by(run.on->rig, run.on->scenario);
+configuration::Rig rig_at_start(const Sweep& sweep, const Run& run) {
+  configuration::Rig rig = experiment::with_start_of(run.on->rig, run.on->scenario);
   for (std::size_t i = 0; i < sweep.draws.size(); ++i)
     *number_of(rig, sweep.draws[i].key).value = run.drawn[i];
   return experiment::changed_by(rig, run.variant);
@@ -43,7 +43,7 @@ experiment::ComparedRun simulate(const Sweep& sweep, const Run& run) {
                                      &runtime::chosen_controller(run.controller, run.on->rig), run.variant,
                                      sweep.integrator};
   try {
-    return experiments::simulate(plan, started_rig(sweep, run));
+    return experiments::simulate(plan, rig_at_start(sweep, run));
   } catch (const std::exception& error) {
     return {.scenario = run.on->scenario.name,
             .variant = run.variant,
@@ -60,7 +60,7 @@ std::string identity_of(const Sweep& sweep) {
   for (const Case& on : sweep.cases) {
     const auto& s = on.scenario;
     text << s.name << ' ' << shortest(s.duration_s) << ' '
-         << configuration::to_toml(experiment::started_by(on.rig, s));
+         << configuration::to_toml(experiment::with_start_of(on.rig, s));
     for (const auto& move : s.moves) {
       text << "move " << shortest(move.at_s);
       for (const auto& target : move.target) text << ' ' << (target ? shortest(*target) : "-");
@@ -70,8 +70,8 @@ std::string identity_of(const Sweep& sweep) {
            << shortest(kick.tangential_radps);
     for (const auto& excitation : s.excitations) {
       const auto& r = excitation.reference;
-      text << "excitation " << shortest(excitation.at_s) << ' ' << r.axis << ' ' << shortest(r.about) << ' '
-           << shortest(r.duration_s);
+      text << "excitation " << shortest(excitation.at_s) << ' ' << r.axis << ' ' << shortest(r.mean_position)
+           << ' ' << shortest(r.duration_s);
       for (const auto& sine : r.sines)
         text << ' ' << shortest(sine.amplitude) << ' ' << shortest(sine.frequency_hz) << ' '
              << shortest(sine.phase_rad);

@@ -66,7 +66,7 @@ struct Run {
 [[nodiscard]] Run run_of(const Sweep& sweep, std::size_t number);
 
 /// The rig of a run: applies the start of the scenario, then the drawn values, then the variant.
-[[nodiscard]] configuration::Rig started_rig(const Sweep& sweep, const Run& run);
+[[nodiscard]] configuration::Rig rig_at_start(const Sweep& sweep, const Run& run);
 
 /// Runs one experiment. Every failure is a result.
 [[nodiscard]] experiment::ComparedRun simulate(const Sweep& sweep, const Run& run);

@@ -124,7 +124,7 @@ void check_draws(const Sweep& sweep, const std::string& file, Problems& problems
     if (reported.insert(line).second) problems.add(line);
   };
   for (const Case& on : sweep.cases) {
-    Rig low = experiment::started_by(on.rig, on.scenario), high = low;
+    Rig low = experiment::with_start_of(on.rig, on.scenario), high = low;
     for (const Draw& draw : sweep.draws) {
       const Number number = number_of(low, draw.key);
       if (number.value == nullptr) {

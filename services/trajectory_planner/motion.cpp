@@ -155,8 +155,8 @@ void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
   begin_at(tick);
 }
 
-void Motion::creep(const std::array<double, kAxes>& speed, const control::Measurement& measured,
-                   std::uint64_t tick) noexcept {
+void Motion::follow_homing_speed(const std::array<double, kAxes>& speed, const control::Measurement& measured,
+                                 std::uint64_t tick) noexcept {
   if (creeping_ && creeping_->speed == speed) return;
   Creeping creeping{.speed = speed};
   const auto now = at(tick);

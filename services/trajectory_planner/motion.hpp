@@ -52,8 +52,8 @@ class Motion {
   void stop(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Moves with constant speeds (m/s, rad/s, m/s of cable); 0: rest. A new speed starts at the measured
   /// position, so that an axis that has detected a mark stops there, without a tracking error.
-  void creep(const std::array<double, control::kAxes>& speed, const control::Measurement& measured,
-             std::uint64_t tick) noexcept;
+  void follow_homing_speed(const std::array<double, control::kAxes>& speed,
+                           const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Begins to follow a stick with the selected axes from the present reference. While the slew axis follows,
   /// the trolley compensates the slewing, even if it is not selected.
   void jog(const std::array<bool, control::kAxes>& selected, std::uint64_t tick) noexcept;

@@ -33,7 +33,7 @@ MoveTarget target_of(const msg::AcceptedMove& request) {
 control::Excitation excitation_of(const msg::AcceptedMove& request) {
   control::Excitation excitation;
   while (excitation.axis + 1 < control::kAxes && !request.selected[excitation.axis]) ++excitation.axis;
-  excitation.about = request.target[excitation.axis];
+  excitation.mean_position = request.target[excitation.axis];
   for (std::size_t i = 0; i < excitation.sines.size(); ++i)
     excitation.sines[i] = {request.sine[i].amplitude, request.sine[i].frequency_hz,
                            request.sine[i].phase_rad};
@@ -95,7 +95,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     } else if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) {
       motion_.follow(measured, next);
     } else if (homing_) {
-      motion_.creep(homing_speed_, measured, next);
+      motion_.follow_homing_speed(homing_speed_, measured, next);
     } else {
       if (status != nullptr) {
         start_if_new(status->move, measured, next);

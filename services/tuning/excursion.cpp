@@ -18,7 +18,8 @@ struct Plan {
 };
 
 Plan plan_of(const experiment::Scenario& scenario, double step_s) {
-  Plan plan{.reference = {}, .middle = scenario.excitations.front().reference.about, .step_s = step_s};
+  Plan plan{
+      .reference = {}, .middle = scenario.excitations.front().reference.mean_position, .step_s = step_s};
   const auto steps = static_cast<std::size_t>(scenario.end_s() / step_s);
   std::size_t next = 0;
   control::AxisReference rest{.position = plan.middle, .speed = 0, .acceleration = 0};

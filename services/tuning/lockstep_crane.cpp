@@ -57,7 +57,7 @@ configuration::Rig started_truth(const configuration::Rig& truth, const configur
 Outcome run_on(const configuration::Rig& truth, const configuration::Rig& rig,
                const control::Controller& controller, const experiment::Scenario& scenario,
                experiments::TickLog& log, simulator::Method integrator) {
-  Outcome outcome{experiment::started_by(rig, scenario), {}};
+  Outcome outcome{experiment::with_start_of(rig, scenario), {}};
   const auto actual = started_truth(truth, outcome.started);
   auto components = stack::stack_with(stack::Plant::simulated);
   components.front().make = make_plant;

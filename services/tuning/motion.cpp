@@ -65,7 +65,7 @@ control::Excitation sines(const configuration::Rig& rig, std::size_t axis, doubl
   const double load_hz = load_radps / (2 * std::numbers::pi);
   control::Excitation excitation;
   excitation.axis = axis;
-  excitation.about = middle_of(rig, axis);
+  excitation.mean_position = middle_of(rig, axis);
   excitation.duration_s = kSines_s;
   excitation.sines[0] = {0.6, 0.5 * load_hz, 0};
   excitation.sines[1] = {0.4, 0.37 * load_hz, 0};
@@ -98,7 +98,7 @@ void add_steps(experiment::Scenario& scenario, std::size_t axis, double middle, 
   for (const double target : {1.0, 0.0, -1.0, 0.0, 1.5, 0.0}) {
     control::Excitation excitation;
     excitation.axis = axis;
-    excitation.about = middle + target * step;
+    excitation.mean_position = middle + target * step;
     scenario.excitations.push_back({at_s, excitation});
     at_s += spacing_s;
   }
@@ -113,7 +113,7 @@ experiment::Scenario probe(const configuration::Rig& careful, const Priors& prio
   scenario.duration_s = kProbe_s + kProbeRest_s;
   control::Excitation excitation;
   excitation.axis = axis;
-  excitation.about = middle_of(careful, axis);
+  excitation.mean_position = middle_of(careful, axis);
   excitation.duration_s = kProbe_s;
   const double amplitude = level * careful.drives[axis].volt_limit_v / stiffness_vpu(careful, axis);
   excitation.sines[0] = {std::min(amplitude, half_travel(careful, axis)), kProbe_hz, 0};

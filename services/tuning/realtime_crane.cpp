@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "experiments/started_rig_file.hpp"
+#include "experiments/rig_at_start_file.hpp"
 #include "tuning/tune.hpp"
 
 namespace crane::tuning {
@@ -14,7 +14,7 @@ RealtimeCrane::RealtimeCrane(RealtimeOptions options)
 
 Motion RealtimeCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {
   const auto file = directory_ / kMotionRigFile;
-  experiments::write_started_rig(file, rig);
+  experiments::write_rig_at_start(file, rig);
   auto run = runs_.run(file, "none", scenario);
   return {std::move(run.table), "", std::move(run.differences)};
 }

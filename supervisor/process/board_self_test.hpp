@@ -1,6 +1,6 @@
 #pragma once
 /// Self-test of the board at the start: ten states in a row must show 0 V, all brakes closed and the watchdog
-/// relay open. The crane cannot be armed before.
+/// relay open. Until then, the crane cannot be armed.
 #include "crane/supervisor/state_machine.hpp"
 #include "crane/topics.hpp"
 #include "process/ticks.hpp"
@@ -9,7 +9,7 @@ namespace crane::supervisor {
 
 class BoardSelfTest {
  public:
-  /// Duration of the received states after which the test has failed.
+  /// The test fails when it has received states for this time without ten safe states in a row.
   static constexpr double kLongest_s = 2;
 
   /// @param period_s  duration of a tick, > 0

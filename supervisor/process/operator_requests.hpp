@@ -1,7 +1,8 @@
 #pragma once
-/// Requests of operators in one step of the supervisor: takes those that are due, refuses those that
-/// contents, mode or place do not permit, passes the others to the state machine, and replies after the
-/// status of the step. Holds the operating mode and the last accepted move, which only requests change.
+/// Requests of operators in one step of the supervisor. Takes the due requests. Refuses a request that its
+/// contents, the operating mode or the position of the crane does not permit; the state machine answers all
+/// other requests. Replies after the status of the step. Holds the operating mode and the last accepted
+/// move, which only requests change.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,15 +25,15 @@ class OperatorRequests {
   void stepped(const msg::Header& header, std::int64_t now_ns) { inbox_.stepped(header, now_ns); }
 
   /// Takes the requests that are due at the tick of `input` and enters the permitted ones into `input`.
-  /// Beside a request that stops the crane, all others are refused: they were sent without knowledge of the
-  /// stop.
+  /// If one request stops the crane, all other requests are refused: they were sent without knowledge of
+  /// the stop.
   /// @param last  motion and state before the step
   void collect(TickInput& input, const TickMemory& last, std::int64_t now_ns);
   /// Takes the answers of the state machine. An accepted move becomes the last move; an accepted session of
   /// the stick begins in `jogs`.
   void take_answers(const TickOutput& output, JogReader& jogs, double now_s);
-  /// Publishes the replies, and the accepted requests. A client that has the reply also has the status: call
-  /// after its publication.
+  /// Publishes the replies, and the accepted requests. Call after the status of the step is published, so
+  /// that a client that receives the reply has already received this status.
   void reply(const msg::Header& header);
   /// True while the requests of this step contain one that stops the crane.
   [[nodiscard]] bool stop_requested() const;

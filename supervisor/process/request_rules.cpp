@@ -78,9 +78,9 @@ constexpr const char* kHint = " (including the radius of the load; crane zone li
 /// The planner follows sines only on the straight path, not around zones.
 std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {
   const auto* zone = control::zone_in_path(limits.zones, limits.clearance, limits.machine.crane.gravity_mps2,
-                                           from, to, control::kRestGap_m);
+                                           from, to, control::kRestClearance_m);
   if (zone == nullptr) return "";
-  const bool inside = control::closest_zone(limits.path_space, to).clearance_m < control::kRestGap_m;
+  const bool inside = control::closest_zone(limits.path_space, to).clearance_m < control::kRestClearance_m;
   return std::string{inside ? "the target is inside zone "
                             : "the straight path to the target leads through zone "} +
          zone->name + (inside ? "" : ": move around it first") + kHint;

@@ -5,9 +5,9 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr double kSilentPeriods = 1.5;   // longest wait for a state after the last sample
-constexpr double kOpenPeriods = 2;       // additional wait when a state has arrived without its demand
-constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
+constexpr double kSilentPeriods = 1.5;     // longest wait for a state after the last sample
+constexpr double kOpenPeriods = 2;         // additional wait when a state has arrived without its demand
+constexpr double kExtensionPeriods = 0.5;  // extension after a late step or a late wake-up
 constexpr std::int64_t kStart_ns = 2'000'000'000;  // longest wait for the first tick with all inputs
 
 }  // namespace
@@ -21,7 +21,7 @@ bool StepTiming::begins(bool complete, std::int64_t now_ns) {
 
 void StepTiming::stepped(std::int64_t sampled_ns, std::int64_t now_ns) {
   if (clock_ == runtime::Clock::prescribed) return expect_state_by(now_ns + 1);
-  expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns + periods_ns(kRespitePeriods)));
+  expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns + periods_ns(kExtensionPeriods)));
 }
 
 bool StepTiming::is_silent(bool open, std::int64_t now_ns) {
@@ -31,9 +31,9 @@ bool StepTiming::is_silent(bool open, std::int64_t now_ns) {
     expect_state_by(now_ns + 1);
     return true;
   }
-  if (!has_respite_ && !open && now_ns >= due + periods_ns(kRespitePeriods) / 2) {
-    state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
-    has_respite_ = true;
+  if (!wait_extended_ && !open && now_ns >= due + periods_ns(kExtensionPeriods) / 2) {
+    state_due_ns_ = now_ns + periods_ns(kExtensionPeriods);
+    wait_extended_ = true;
     return false;
   }
   expect_state_by(now_ns + periods_ns(kSilentPeriods));

@@ -40,14 +40,14 @@ class StepTiming {
   }
   void expect_state_by(std::int64_t time_ns) {
     state_due_ns_ = time_ns;
-    has_respite_ = false;
+    wait_extended_ = false;
   }
 
   double period_s_;
   runtime::Clock clock_;
   std::int64_t state_due_ns_ = runtime::kNever;
   bool begun_ = false;
-  bool has_respite_ = false;  ///< true: the wait of this step has been extended
+  bool wait_extended_ = false;  ///< true: the wait of this step has been extended
 };
 
 }  // namespace crane::supervisor

@@ -15,7 +15,8 @@ Envelope check_envelope(const Limits& limits, const EnvelopeInput& input) noexce
     if (input.unknown[i]) {
       found.block_positive[i] = input.limit_high[i];
       found.block_negative[i] = input.limit_low[i];
-      found.overspeed = found.overspeed || !(std::abs(v) <= limits.creeping_ratio * axis.homing.speed);
+      found.overspeed =
+          found.overspeed || !(std::abs(v) <= limits.homing_overspeed_ratio * axis.homing.speed);
       continue;
     }
     const double distance = stopping_distance(limits, i, v);

@@ -181,7 +181,7 @@ RampedStop ramped_stop(const Limits& limits, const ZoneInput& input, const ZoneM
   return stop;
 }
 
-control::ReachedSpace reach_of(const Limits& limits, const RampedStop& stop) noexcept {
+control::ReachedSpace reached_space_of(const Limits& limits, const RampedStop& stop) noexcept {
   const auto& clearance = limits.clearance;
   const double longest = stop.load.longest_m;
   return {.x_m = stop.region.centre[0],

@@ -47,6 +47,6 @@ struct RampedStop {
                                      const ZoneMemory& memory) noexcept;
 
 /// Step 4: space that load, hook and cable can reach.
-[[nodiscard]] control::ReachedSpace reach_of(const Limits& limits, const RampedStop& stop) noexcept;
+[[nodiscard]] control::ReachedSpace reached_space_of(const Limits& limits, const RampedStop& stop) noexcept;
 
 }  // namespace crane::supervisor

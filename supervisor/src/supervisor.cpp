@@ -11,7 +11,7 @@ namespace crane::supervisor {
 namespace {
 
 /// Advances homing by one tick. @return speed of the reference, unit/s; 0 outside homing
-double creep(const Limits& limits, TickMemory& memory) {
+double advance_homing(const Limits& limits, TickMemory& memory) {
   if (!memory.machine.homing || memory.machine.state != State::run) return 0;
   const std::size_t i = memory.homing_axis;
   const Sample& sample = memory.sample;
@@ -98,7 +98,7 @@ ZoneVerdict guard_zones(const Limits& limits, bool sampled, GateOutput& gated, T
     return {};
   }
   const ZoneVerdict verdict = filter_zones(limits, in, memory.zones);
-  if (verdict.touched && protection::enabled("supervisor_zone")) gated.drive_v = {};
+  if (verdict.needs_ramped_stop && protection::enabled("supervisor_zone")) gated.drive_v = {};
   return verdict;
 }
 
@@ -135,7 +135,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const bool relay_did_not_open = watch_relay(limits, input, sampled, memory);
   GateOutput gated = run_gate(limits, input, envelope, memory);
   const ZoneVerdict zone = guard_zones(limits, sampled, gated, memory);
-  const double creeping_speed = creep(limits, memory);
+  const double homing_speed = advance_homing(limits, memory);
   const bool following_error = following_error_now(limits, sampled, memory);
   const bool swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
   const Inputs inputs = machine_inputs(limits, input,
@@ -175,7 +175,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   for (std::size_t i = 0; i < kAxes; ++i) {
     out.brake_release[i] = decided.brake_release && takes_part(limits, memory, i);
     out.homing[i] = memory.may_set_zero && memory.homing_axis == i;
-    if (out.homing[i] && decided.state == State::run) out.homing_speed[i] = creeping_speed;
+    if (out.homing[i] && decided.state == State::run) out.homing_speed[i] = homing_speed;
   }
   memory.gate.last_v = out.drive_v;
   memory.relay_permitted = out.watchdog_permission;

@@ -64,7 +64,7 @@ std::optional<std::size_t> zone_ahead(const Limits& limits, const ZoneInput& inp
 /// permits no further approach to the zone.
 void begin_watching(const Limits& limits, const ZoneInput& input, const ReachedSpace& reach,
                     ZoneMemory& memory) noexcept {
-  const ReachedSpace resting = control::resting_reach(
+  const ReachedSpace resting = control::resting_space(
       limits.clearance, limits.machine.crane.gravity_mps2, input.position[kTrolley],
       limits.axis[kSlew].present ? input.position[kSlew] : 0, limits.machine.cable(input.position[kHoist]));
   for (std::size_t zone = 0; zone < limits.zones.size(); ++zone) {
@@ -95,18 +95,19 @@ void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memo
   memory.applied_v = input.applied_v;
 }
 
-ReachedSpace ramped_reach(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory) noexcept {
-  return reach_of(limits, ramped_stop(limits, input, memory));
+ReachedSpace ramped_stop_space(const Limits& limits, const ZoneInput& input,
+                               const ZoneMemory& memory) noexcept {
+  return reached_space_of(limits, ramped_stop(limits, input, memory));
 }
 
 ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemory& memory) noexcept {
   if (limits.zones.empty()) return {};
-  if (memory.samples < 2) return {.ahead = true, .touched = true};
+  if (memory.samples < 2) return {.needs_controlled_stop = true, .needs_ramped_stop = true};
   const RampedStop stop = ramped_stop(limits, input, memory);
-  const ReachedSpace reach = reach_of(limits, stop);
+  const ReachedSpace reach = reached_space_of(limits, stop);
   if (!memory.watching) begin_watching(limits, input, reach, memory);
   const auto ahead = zone_ahead(limits, input, memory, stop, reach);
-  ZoneVerdict verdict{.ahead = ahead.has_value()};
+  ZoneVerdict verdict{.needs_controlled_stop = ahead.has_value()};
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t zone = 0; zone < limits.zones.size(); ++zone) {
     double& permitted_m = memory.permitted_m[zone];
@@ -116,10 +117,11 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
       least_m = spare_m;
       verdict.zone = zone, verdict.clearance_m = gap_m;
     }
-    verdict.touched = verdict.touched || !(spare_m >= 0);
+    verdict.needs_ramped_stop = verdict.needs_ramped_stop || !(spare_m >= 0);
     permitted_m = std::min(0.0, std::max(permitted_m, gap_m));
   }
-  if (ahead && !verdict.touched) verdict.zone = *ahead, verdict.clearance_m = gap_of(limits, *ahead, reach);
+  if (ahead && !verdict.needs_ramped_stop)
+    verdict.zone = *ahead, verdict.clearance_m = gap_of(limits, *ahead, reach);
   return verdict;
 }
 

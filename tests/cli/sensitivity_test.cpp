@@ -32,10 +32,10 @@ experiments::PlannedRun perturbed(const std::string& controller, const std::stri
 TEST(Perturbations, ChangeTheTrueCraneAndNotTheDesignOfTheControllers) {
   const auto as_designed = plan_with("delayed_1");
   const auto cable = perturbed("delayed_1", "cable_length", -50);
-  EXPECT_DOUBLE_EQ(experiment::started_by(cable.rig, cable.scenario).start.cable_length_offset_m, -0.5);
+  EXPECT_DOUBLE_EQ(experiment::with_start_of(cable.rig, cable.scenario).start.cable_length_offset_m, -0.5);
   EXPECT_EQ(cable.rig.design.cable_length_m, as_designed.rig.design.cable_length_m);
   const auto load = perturbed("delayed_1", "load_mass", 50);
-  EXPECT_DOUBLE_EQ(experiment::started_by(load.rig, load.scenario).plant.load_mass_kg, 3);
+  EXPECT_DOUBLE_EQ(experiment::with_start_of(load.rig, load.scenario).plant.load_mass_kg, 3);
   EXPECT_EQ(load.rig.design.crane.load_mass_kg, 2);
 }
 

@@ -129,10 +129,10 @@ TEST(Adaptation, EstimatesPayloadLengthAndOffset) {
     rig.swing_offset_rad = {0.005, -0.004};
     there_and_back(rig, kManeuvers[2], 6, [&](const Adaptation& adaptation) {
       const auto& report = adaptation.report();
-      EXPECT_NEAR(report.load_mass_kg.value, rig.truth.load_mass_kg, 3 * report.load_mass_kg.deviation);
-      EXPECT_LT(report.load_mass_kg.deviation, 0.1);
+      EXPECT_NEAR(report.load_mass_kg.value, rig.truth.load_mass_kg, 3 * report.load_mass_kg.std_dev);
+      EXPECT_LT(report.load_mass_kg.std_dev, 0.1);
       EXPECT_NEAR(report.pendulum_length_m.value, 1 + rig.cable_offset_m, 0.02);
-      EXPECT_LT(report.pendulum_length_m.deviation, 0.02);
+      EXPECT_LT(report.pendulum_length_m.std_dev, 0.02);
       EXPECT_NEAR(report.swing_offset_rad[0].value, 0.005, 0.0005);
       EXPECT_NEAR(report.swing_offset_rad[1].value, -0.004, 0.0005);
     });

@@ -153,7 +153,7 @@ TEST(Scenario, StatesItsDefaultRigControllersAndVariants) {
   EXPECT_THAT(s.controllers, ElementsAre("delayed_1", "none"));
   EXPECT_THAT(s.variants, ElementsAre("slow_reference+no_compensation"));
   EXPECT_EQ(s.cable_length_offset_m, 0.25);
-  EXPECT_EQ(started_by(tower(), s).start.cable_length_offset_m, 0.25);
+  EXPECT_EQ(with_start_of(tower(), s).start.cable_length_offset_m, 0.25);
   EXPECT_THAT(problems_of("description = \"d\"\ncontrollers = [\"pid\"]\nvariants = [\"ideal+windy\"]\n"),
               ElementsAre(HasSubstr("s.toml:2: controllers"), HasSubstr("s.toml:3: variants")));
 }
@@ -193,7 +193,7 @@ TEST(Scenario, StartsTheRigAtItsPositionsWithItsLoad) {
   scenario.start[0] = 0.9;
   scenario.swing_radial_rad = 0.2;
   scenario.load_mass_kg = 4;
-  const configuration::Rig started = started_by(rig, scenario);
+  const configuration::Rig started = with_start_of(rig, scenario);
   EXPECT_THAT(started.start.position, ElementsAre(0.9, 0.1, 1));
   EXPECT_EQ(started.start.swing_radial_rad, 0.2);
   EXPECT_EQ(started.plant.load_mass_kg, 4);

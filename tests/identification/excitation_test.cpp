@@ -27,7 +27,7 @@ TEST(Excitation, HasSpeedAndAccelerationOfItsPosition) {
 TEST(Excitation, BeginsAndEndsAtRest) {
   const Excitation excitation = multi_sine(control::kTrolley, kTrolleyAmplitude_m, kRoomy, 20);
   for (const double t : {-1.0, 0.0, 20.0, 25.0}) {
-    EXPECT_EQ(excitation.at(t).position, excitation.about);
+    EXPECT_EQ(excitation.at(t).position, excitation.mean_position);
     EXPECT_EQ(excitation.at(t).speed, 0);
   }
   EXPECT_NEAR(excitation.at(1e-6).speed, 0, 1e-5);
@@ -43,7 +43,7 @@ TEST(Excitation, IsTheDissertationsBetweenItsFades) {
 }
 
 TEST(Excitation, WithoutSinesIsAStep) {
-  const Excitation step{.axis = control::kSlew, .about = 0.4, .sines = {}, .duration_s = 3};
+  const Excitation step{.axis = control::kSlew, .mean_position = 0.4, .sines = {}, .duration_s = 3};
   for (const double t : {0.0, 1.0, 5.0}) EXPECT_EQ(step.at(t).position, 0.4);
   EXPECT_EQ(step.at(1).speed, 0);
 }
@@ -76,7 +76,7 @@ TEST(MultiSine, KeepsTheSwing) {
 }
 
 TEST(PredictedSwing, OfASlowTrolleyIsQuasiStatic) {
-  Excitation slow{.axis = control::kTrolley, .about = 0.5, .sines = {}, .duration_s = 120};
+  Excitation slow{.axis = control::kTrolley, .mean_position = 0.5, .sines = {}, .duration_s = 120};
   slow.sines[0] = {0.3, 0.02, 0};
   // a/g at the largest acceleration of the sine between its fades. The fades last longer than a period of the
   // load.

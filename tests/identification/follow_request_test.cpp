@@ -15,7 +15,8 @@ experiment::Scenario following(double amplitude_m, double frequency_hz, double p
   experiment::Scenario scenario;
   scenario.duration_s = 14;
   scenario.start[plant::kTrolley] = kMiddle_m;
-  control::Excitation reference{.axis = plant::kTrolley, .about = kMiddle_m, .sines = {}, .duration_s = 10};
+  control::Excitation reference{
+      .axis = plant::kTrolley, .mean_position = kMiddle_m, .sines = {}, .duration_s = 10};
   reference.sines[1] = {amplitude_m, frequency_hz, phase_rad};
   scenario.excitations.push_back({.at_s = 0.5, .reference = reference});
   return scenario;
@@ -23,7 +24,7 @@ experiment::Scenario following(double amplitude_m, double frequency_hz, double p
 
 std::vector<experiment::Sample> run(const experiment::Scenario& scenario) {
   const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
-  const auto started = experiment::started_by(rig, scenario);
+  const auto started = experiment::with_start_of(rig, scenario);
   TickLog log{std::nullopt};
   const auto outcome = run_in_process(started, runtime::chosen_controller("none", rig), scenario, log);
   EXPECT_TRUE(outcome.completed) << outcome.stopped_because;

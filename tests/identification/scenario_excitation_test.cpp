@@ -43,7 +43,7 @@ TEST(ScenarioExcitation, IsReadAsWritten) {
   const auto& trolley = scenario.excitations[0];
   EXPECT_EQ(trolley.at_s, 0.5);
   EXPECT_EQ(trolley.reference.axis, plant::kTrolley);
-  EXPECT_EQ(trolley.reference.about, 0.75);
+  EXPECT_EQ(trolley.reference.mean_position, 0.75);
   EXPECT_EQ(trolley.reference.sines[1].amplitude, 0.18);
   EXPECT_EQ(trolley.reference.sines[1].frequency_hz, 0.25);
   EXPECT_EQ(trolley.reference.sines[2].amplitude, 0);

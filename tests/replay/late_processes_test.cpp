@@ -11,7 +11,7 @@
 #include "crane/recording/mcap_writer.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "crane/runtime/process.hpp"
-#include "experiments/started_rig_file.hpp"
+#include "experiments/rig_at_start_file.hpp"
 #include "replay/replay.hpp"
 #include "stack/operator_client.hpp"
 #include "stack/stack.hpp"
@@ -32,7 +32,7 @@ class LateStack {
         operator_{bus_, "operator", 1},
         jogs_{bus_.publisher(topics::jog)} {
     writer_.metadata("crane", {{"crane", "late"}});
-    const auto text = experiments::started_rig_text(rig_);
+    const auto text = experiments::rig_at_start_text(rig_);
     writer_.attachment("rig.toml", "application/toml", 0,
                        {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     bus::set_wire(*stack_.network(),

@@ -12,7 +12,7 @@
 #include "crane/runtime/node.hpp"
 #include "crane/runtime/tick_join.hpp"
 #include "crane/supervisor/states.hpp"
-#include "experiments/started_rig_file.hpp"
+#include "experiments/rig_at_start_file.hpp"
 #include "experiments/tick_log.hpp"
 #include "stack/operator_client.hpp"
 #include "stack/stack.hpp"
@@ -36,7 +36,7 @@ class RecordedCrane {
                  loop_reader(topics::anti_swing),  loop_reader(topics::demand),
                  loop_reader(topics::command),     loop_reader(topics::supervisor)} {
     log_.describe({{"clock", "lockstep"}, {"controller", std::string{controller_.name}}, {"rig", rig_.name}},
-                  experiments::started_rig_text(rig_));
+                  experiments::rig_at_start_text(rig_));
   }
 
   /// Network of the stack, for a recorder. @param poll  called after every tick
@@ -45,7 +45,7 @@ class RecordedCrane {
     return stack_.network();
   }
 
-  [[nodiscard]] std::string rig_text() const { return experiments::started_rig_text(rig_); }
+  [[nodiscard]] std::string rig_text() const { return experiments::rig_at_start_text(rig_); }
 
   void tick() {
     const auto until = std::max<std::uint64_t>(next_, 1);  // the plant starts with two ticks

@@ -23,7 +23,7 @@ constexpr int kOutOfMemory = 7;
 int exit_after(const std::function<void()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
-    end_when_growing();
+    limit_memory_growth();
     try {
       work();
     } catch (const std::bad_alloc&) {
@@ -57,7 +57,7 @@ TEST(MemoryLimit, KeepsALowerLimitOfTheAdministrator) {
   EXPECT_EQ(exit_after([] {
               const rlimit lower{.rlim_cur = kMostGrowth_bytes / 4, .rlim_max = RLIM_INFINITY};
               if (::setrlimit(RLIMIT_DATA, &lower) != 0) ::_exit(EXIT_FAILURE);
-              end_when_growing();
+              limit_memory_growth();
               rlimit limit{};
               ::getrlimit(RLIMIT_DATA, &limit);
               ::_exit(limit.rlim_cur == lower.rlim_cur ? EXIT_SUCCESS : EXIT_FAILURE);

@@ -31,7 +31,7 @@ void compute_for(std::chrono::nanoseconds duration) {
 int status_after(const std::function<void()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
-    end_when_spinning();
+    limit_spin_time();
     const sched_param parameters{.sched_priority = 1};
     if (::sched_setscheduler(0, SCHED_FIFO, &parameters) != 0) ::_exit(kNotPermitted);
     work();

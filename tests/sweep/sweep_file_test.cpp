@@ -86,7 +86,7 @@ seeds = 3
   EXPECT_EQ(run_of(sweep, 0).seed, 7U);
   EXPECT_NE(run_of(sweep, 0).drawn, run_of(sweep, 1).drawn);
   const sweep::Run run = run_of(sweep, 1);
-  const auto rig = started_rig(sweep, run);
+  const auto rig = rig_at_start(sweep, run);
   EXPECT_EQ(rig.plant.load_mass_kg, run.drawn[0]) << "the true crane";
   EXPECT_EQ(rig.design.crane.load_mass_kg, 2.0) << "what the controllers believe";
 }
@@ -105,7 +105,7 @@ low = 0.1
 high = 0.2
 )");
   const sweep::Run run = run_of(sweep, 1);
-  auto rig = started_rig(sweep, run);
+  auto rig = rig_at_start(sweep, run);
   EXPECT_EQ(*number_of(rig, sweep.draws[0].key).value, run.drawn[0]);
   EXPECT_EQ(*number_of(rig, sweep.draws[1].key).value, run.drawn[1]);
   EXPECT_GE(run.drawn[0], 0.6);

@@ -37,7 +37,7 @@ TEST(Example, ReadRecordingDecodesByTheTextInTheFile) {
   auto scenario = experiment::load_scenario(stack::find_scenario("maneuver_1"), &rig);
   scenario.duration_s = 1;
   experiments::TickLog log{directory / "run.mcap"};
-  (void)experiments::run_in_process(experiment::started_by(rig, scenario),
+  (void)experiments::run_in_process(experiment::with_start_of(rig, scenario),
                                     *control::find_controller("gain_scheduling_partial"), scenario, log);
   log.close();
   const auto ended =

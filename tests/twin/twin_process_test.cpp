@@ -38,7 +38,7 @@ class TwinProcess : public testing::Test {
     const auto rig = configuration::load_rig(rig_file);
     recording::put_contents(directory_ / "moves.toml", scenario_text(moves));
     const auto scenario = experiment::load_scenario(directory_ / "moves.toml", &rig);
-    const auto started = experiment::changed_by(experiment::started_by(rig, scenario), variant);
+    const auto started = experiment::changed_by(experiment::with_start_of(rig, scenario), variant);
     const std::string mass = "load_mass_kg = 2.0";
     auto changed = contents_of(rig_file);
     if (!variant.empty())

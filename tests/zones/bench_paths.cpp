@@ -37,7 +37,7 @@ plant::PerAxis random_place(const control::PathSpace& space, std::mt19937& bits)
     for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
       place[axis] = space.axis[axis].low + (space.axis[axis].high - space.axis[axis].low) *
                                                static_cast<double>(bits()) / 4294967296.0;
-    if (control::closest_zone(space, place).clearance_m >= control::kPassGap_m) break;
+    if (control::closest_zone(space, place).clearance_m >= control::kPassClearance_m) break;
   }
   return place;
 }

@@ -136,7 +136,7 @@ TEST(ZoneFilter, ChangesNoVoltageFarFromAZone) {
 TEST(ZoneFilter, StopsACraneWhoseFirstSampleItHasNotSeen) {
   const auto limits = supervisor::limits_of(rig_with("gantry", {wall_at(2)}));
   supervisor::ZoneMemory memory;
-  EXPECT_TRUE(supervisor::filter_zones(limits, {}, memory).touched);
+  EXPECT_TRUE(supervisor::filter_zones(limits, {}, memory).needs_ramped_stop);
 }
 
 TEST(ZoneFilter, CountsATickWithoutASample) {
@@ -191,7 +191,7 @@ Tried try_stop(std::uint64_t seed, const std::string& name) {
                                  .swing_tangential_rad = crane.input.sample.swing_tangential_rad,
                                  .applied_v = crane.input.sample.applied_v,
                                  .gate_output_v = crane.out.drive_v};
-  const auto reach = supervisor::ramped_reach(crane.limits, in, crane.memory.zones);
+  const auto reach = supervisor::ramped_stop_space(crane.limits, in, crane.memory.zones);
   crane.limits.zones = {wall_at(0)};
   crane.limits.zones[0].size_x_m = 100;
   Tried tried{.moved = true};

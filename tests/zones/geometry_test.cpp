@@ -46,7 +46,7 @@ TEST(ClearanceOfAZone, CountsTheCableAboveTheLoad) {
 
 TEST(RestingReach, ContainsLoadWindAndTheErrorOfTheCable) {
   const auto reach =
-      resting_reach({.load_radius_m = 0.1, .suspension_height_m = 2, .cable_error = 0.1, .wind_mps2 = 0.25},
+      resting_space({.load_radius_m = 0.1, .suspension_height_m = 2, .cable_error = 0.1, .wind_mps2 = 0.25},
                     kGravity, 1.2, std::numbers::pi / 2, 1);
   EXPECT_NEAR(reach.x_m, 0, 1e-12);
   EXPECT_NEAR(reach.y_m, 1.2, 1e-12);

@@ -48,7 +48,7 @@ configuration::Rig nominal_rig(Random& random, const std::string& name) {
       between(random, trolley.low_limit + trolley.soft_margin, trolley.high_limit - trolley.soft_margin);
   const auto& start = rig.start.position;
   const auto reach =
-      control::resting_reach(rig.clearance, rig.plant.gravity_mps2, start[0], start[1], start[2]);
+      control::resting_space(rig.clearance, rig.plant.gravity_mps2, start[0], start[1], start[2]);
   for (std::size_t i = 0, wanted = 1 + random() % 3; rig.zones.size() < wanted; ++i) {
     const auto zone = random_zone(random, rig, i);
     if (control::clearance_m(zone, reach, rig.clearance.suspension_height_m) > 0.05)

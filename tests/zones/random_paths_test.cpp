@@ -121,10 +121,10 @@ Count check_random_paths(const PathSpace& rig, unsigned seeds, int most_zones) {
     const Path path = path_to(space, from, to);
     if (path.outcome == PathOutcome::straight) {
       ++count.straight;
-      EXPECT_GE(closest_on(space, from, {to}), kRestGap_m - 1e-3) << "seed " << seed;
+      EXPECT_GE(closest_on(space, from, {to}), kRestClearance_m - 1e-3) << "seed " << seed;
     } else if (path.outcome == PathOutcome::by_waypoints) {
       ++count.around;
-      EXPECT_GE(closest_on(space, from, corners_of(path)), kRestGap_m - 1e-3) << "seed " << seed;
+      EXPECT_GE(closest_on(space, from, corners_of(path)), kRestClearance_m - 1e-3) << "seed " << seed;
       EXPECT_EQ(path.points.back().position, to) << "seed " << seed;
       for (const auto& point : path.points) {
         EXPECT_GT(point.speed_share, 0) << "seed " << seed;
@@ -138,8 +138,8 @@ Count check_random_paths(const PathSpace& rig, unsigned seeds, int most_zones) {
       ++count.no_path;
       EXPECT_EQ(path.outcome, PathOutcome::no_path) << "seed " << seed;
       EXPECT_FALSE(path.blocking.empty()) << "seed " << seed;
-      // Passages narrower than a cell of the search (4 cm) beside kPassGap_m may remain unknown.
-      EXPECT_FALSE(flood_connects(space, from, to, kPassGap_m + 0.04)) << "seed " << seed;
+      // Passages narrower than a cell of the search (4 cm) beside kPassClearance_m may remain unknown.
+      EXPECT_FALSE(flood_connects(space, from, to, kPassClearance_m + 0.04)) << "seed " << seed;
     }
   }
   return count;
@@ -180,7 +180,7 @@ TEST(RandomRoutes, StayOutOfTheZonesWithBlendedCorners) {
     double rests_s = 0;
     for (double t = 0; t <= route.duration_s() + 0.1; t += 0.005) {
       const std::array at{route.at(0, t), route.at(1, t), route.at(2, t)};
-      ASSERT_GE(gap_at(space, {at[0].position, at[1].position, at[2].position}), kRestGap_m - 1e-3)
+      ASSERT_GE(gap_at(space, {at[0].position, at[1].position, at[2].position}), kRestClearance_m - 1e-3)
           << "seed " << seed << " at " << t;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         ASSERT_LE(std::abs(at[axis].speed), space.axis[axis].speed * 1.0001) << "seed " << seed;

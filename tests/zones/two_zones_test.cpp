@@ -48,7 +48,7 @@ class RandomPair {
     auto at = pair.rig.start.position;
     at[pair.axis] += moved;
     const auto reach =
-        control::resting_reach(pair.rig.clearance, pair.rig.plant.gravity_mps2, at[0], at[1], at[2]);
+        control::resting_space(pair.rig.clearance, pair.rig.plant.gravity_mps2, at[0], at[1], at[2]);
     return control::clearance_m(zone, reach, pair.rig.clearance.suspension_height_m);
   }
   control::Zone any(const Pair& pair, double moved, const char* name) {

@@ -51,7 +51,7 @@ bool can_be_reached(const Rig& rig, const Zone& zone) {
   };
   for (int i = 0; i <= kPoints; ++i)
     for (int k = 0; k <= kPoints; ++k) {
-      const auto reach = control::resting_reach(rig.clearance, rig.plant.gravity_mps2, at(trolley, i),
+      const auto reach = control::resting_space(rig.clearance, rig.plant.gravity_mps2, at(trolley, i),
                                                 turn > 0 ? at(slew, k) : 0, longest_m);
       if (control::clearance_m(zone, reach, rig.clearance.suspension_height_m) <= spacing_m) return true;
     }
@@ -59,7 +59,7 @@ bool can_be_reached(const Rig& rig, const Zone& zone) {
 }
 
 bool contains(const Rig& rig, const Zone& zone, const plant::PerAxis& position) {
-  const auto reach = control::resting_reach(rig.clearance, rig.plant.gravity_mps2, position[plant::kTrolley],
+  const auto reach = control::resting_space(rig.clearance, rig.plant.gravity_mps2, position[plant::kTrolley],
                                             rig.drives[plant::kSlew].present ? position[plant::kSlew] : 0,
                                             position[plant::kHoist]);
   return control::clearance_m(zone, reach, rig.clearance.suspension_height_m) <= 0;

@@ -35,7 +35,7 @@ Jet sum_of(const std::array<Sine, 4>& sines, double time_s) noexcept {
 }  // namespace
 
 AxisReference Excitation::at(double time_s) const noexcept {
-  if (!(time_s > 0) || time_s >= duration_s) return {about, 0, 0};
+  if (!(time_s > 0) || time_s >= duration_s) return {mean_position, 0, 0};
   const double fade_s = std::min(kFade_s, duration_s / 2);
   const double left_s = duration_s - time_s;
   Jet fade = rise(time_s, fade_s);
@@ -44,7 +44,7 @@ AxisReference Excitation::at(double time_s) const noexcept {
     fade.first = -fade.first;
   }
   const Jet sum = sum_of(sines, time_s);
-  return {.position = about + fade.value * sum.value,
+  return {.position = mean_position + fade.value * sum.value,
           .speed = fade.first * sum.value + fade.value * sum.first,
           .acceleration = fade.second * sum.value + 2 * fade.first * sum.first + fade.value * sum.second};
 }

@@ -11,17 +11,17 @@ namespace crane::control {
 namespace {
 
 /// Shares of a shaper whose half period is `half_ticks`.
-ShaperImpulses shares_of(Shaping shaping, std::size_t half_ticks, double period_s) noexcept {
+ShaperImpulses impulses_of(Shaping shaping, std::size_t half_ticks, double period_s) noexcept {
   const double swing_period_s = 2 * static_cast<double>(half_ticks) * period_s;
   const Shaper shaper{shaping, swing_period_s};
-  ShaperImpulses shares{.share = {}, .count = 0, .mean_s = 0, .largest_weight = 0};
+  ShaperImpulses impulses{.impulse = {}, .count = 0, .mean_s = 0, .largest_weight = 0};
   for (const Impulse& impulse : shaper.impulses()) {
     const auto halves = static_cast<std::size_t>(std::lround(2 * impulse.time_s / swing_period_s));
-    shares.share[shares.count++] = {halves * half_ticks, impulse.share};
-    shares.mean_s += impulse.share * impulse.time_s;
-    shares.largest_weight = std::max(shares.largest_weight, impulse.share);
+    impulses.impulse[impulses.count++] = {halves * half_ticks, impulse.weight};
+    impulses.mean_s += impulse.weight * impulse.time_s;
+    impulses.largest_weight = std::max(impulses.largest_weight, impulse.weight);
   }
-  return shares;
+  return impulses;
 }
 
 /// Largest change of speed in one tick, unit/s, and duration of the tick.
@@ -30,11 +30,11 @@ struct RateLimit {
 };
 
 /// The change nearest to `wanted` with which no tick exceeds the acceleration limit.
-double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& rate,
+double feasible(double wanted, const ShaperImpulses& impulses, const RateLimit& rate,
                 const PendingChanges& pending) noexcept {
   double low = -1e9, high = 1e9;
-  for (std::size_t i = 0; i < shares.count; ++i) {
-    const auto& [ticks, weight] = shares.share[i];
+  for (std::size_t i = 0; i < impulses.count; ++i) {
+    const auto& [ticks, weight] = impulses.impulse[i];
     low = std::max(low, (-rate.change - pending.in(ticks)) / weight);
     high = std::min(high, (rate.change - pending.in(ticks)) / weight);
   }
@@ -43,11 +43,11 @@ double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& ra
 }
 
 /// Advances u and s by one tick.
-void advance(const ShaperImpulses& shares, const RateLimit& rate, double wanted, StickAxis& axis) noexcept {
+void advance(const ShaperImpulses& impulses, const RateLimit& rate, double wanted, StickAxis& axis) noexcept {
   if (wanted != axis.unshaped) {
-    const double change = feasible(wanted - axis.unshaped, shares, rate, axis.pending);
-    for (std::size_t i = 0; i < shares.count; ++i) {
-      const auto& [ticks, weight] = shares.share[i];
+    const double change = feasible(wanted - axis.unshaped, impulses, rate, axis.pending);
+    for (std::size_t i = 0; i < impulses.count; ++i) {
+      const auto& [ticks, weight] = impulses.impulse[i];
       axis.pending.add(ticks, weight * change);
       axis.lag += weight * change * static_cast<double>(ticks) * rate.period_s;
     }
@@ -65,10 +65,10 @@ void advance(const ShaperImpulses& shares, const RateLimit& rate, double wanted,
   axis.lag -= (axis.unshaped - axis.speed) * rate.period_s;
 }
 
-PositionRange release_of(const ShaperImpulses& shares, const RateLimit& rate, StickAxis axis) noexcept {
+PositionRange release_of(const ShaperImpulses& impulses, const RateLimit& rate, StickAxis axis) noexcept {
   PositionRange range{axis.position, axis.position};
   while (axis.unshaped != 0 || !axis.pending.empty()) {
-    advance(shares, rate, 0, axis);
+    advance(impulses, rate, 0, axis);
     range.low = std::min(range.low, axis.position);
     range.high = std::max(range.high, axis.position);
   }
@@ -76,13 +76,13 @@ PositionRange release_of(const ShaperImpulses& shares, const RateLimit& rate, St
 }
 
 /// Positions of a stop. If no stop can reach a limit, the function returns only the present position.
-PositionRange release_in(const StickAxisLimits& limits, const ShaperImpulses& shares, const RateLimit& rate,
+PositionRange release_in(const StickAxisLimits& limits, const ShaperImpulses& impulses, const RateLimit& rate,
                          const StickAxis& axis) noexcept {
-  const double delay_s = static_cast<double>(shares.share[shares.count - 1].ticks) * rate.period_s;
+  const double delay_s = static_cast<double>(impulses.impulse[impulses.count - 1].ticks) * rate.period_s;
   const double longest = limits.speed * (2 * limits.speed / limits.acceleration + 2 * delay_s);
   if (axis.position - longest > limits.low && axis.position + longest < limits.high)
     return {axis.position, axis.position};
-  return release_of(shares, rate, axis);
+  return release_of(impulses, rate, axis);
 }
 
 /// Largest u >= 0 whose stop needs at most `distance`: u^2 / (2 b) + u m = distance, with the braking b of u
@@ -92,24 +92,24 @@ double speed_for(double distance, double braking, double mean_s) noexcept {
   return braking * (std::sqrt(mean_s * mean_s + 2 * distance / braking) - mean_s);
 }
 
-void step_axis(const StickAxisLimits& limits, const ShaperImpulses& shares, double period_s, double wanted,
+void step_axis(const StickAxisLimits& limits, const ShaperImpulses& impulses, double period_s, double wanted,
                StickAxis& axis) noexcept {
   if (!(limits.speed > 0)) return;
   const RateLimit rate{limits.acceleration * period_s, period_s};
-  const double braking = limits.acceleration / shares.largest_weight, tick_travel = limits.speed * period_s;
+  const double braking = limits.acceleration / impulses.largest_weight, tick_travel = limits.speed * period_s;
   // position at the end of the pending changes, without the braking distance from u
   const double end = axis.position - axis.lag;
-  const double up = speed_for(limits.high - end - tick_travel, braking, shares.mean_s);
-  const double down = speed_for(end - limits.low - tick_travel, braking, shares.mean_s);
+  const double up = speed_for(limits.high - end - tick_travel, braking, impulses.mean_s);
+  const double down = speed_for(end - limits.low - tick_travel, braking, impulses.mean_s);
   StickAxis trial = axis;
-  advance(shares, rate, std::clamp(wanted, -down, up), trial);
-  trial.release = release_in(limits, shares, rate, trial);
+  advance(impulses, rate, std::clamp(wanted, -down, up), trial);
+  trial.release = release_in(limits, impulses, rate, trial);
   const bool inside = trial.release.low >= std::min(limits.low, axis.release.low) &&
                       trial.release.high <= std::max(limits.high, axis.release.high);
   if (!inside) {
     trial = axis;
-    advance(shares, rate, 0, trial);
-    trial.release = release_in(limits, shares, rate, trial);
+    advance(impulses, rate, 0, trial);
+    trial.release = release_in(limits, impulses, rate, trial);
   }
   axis = trial;
 }
@@ -241,7 +241,7 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
   const double longest_m = std::max(limits.longest_cable_m, reference[kHoist].position);
   const double half_s = plant::swing_period_s(limits.gravity_mps2, longest_m) / 2;
   const auto half_ticks = static_cast<std::size_t>(std::ceil(half_s / limits.period_s));
-  memory.shares = shares_of(limits.shaping, std::min(half_ticks, kStickSlots / 2 - 1), limits.period_s);
+  memory.impulses = impulses_of(limits.shaping, std::min(half_ticks, kStickSlots / 2 - 1), limits.period_s);
   memory.frequency_radps = std::numbers::pi / (static_cast<double>(half_ticks) * limits.period_s);
   memory.limits = limits_of_s(limits, reference);
   for (std::size_t i = 0; i < kAxes; ++i) {
@@ -253,7 +253,7 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
     axis.pending = {};
     axis.release = {axis.position, axis.position};
     if (own.speed > 0)
-      axis.release = release_in(own, i == kHoist ? ShaperImpulses{} : memory.shares,
+      axis.release = release_in(own, i == kHoist ? ShaperImpulses{} : memory.impulses,
                                 {own.acceleration * limits.period_s, limits.period_s}, axis);
   }
   memory.path.fill(point_of(limits, memory));
@@ -265,7 +265,7 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,
                StickMemory& memory) noexcept {
   for (const std::size_t i : {kTrolley, kSlew, kHoist})
-    step_axis(memory.limits[i], i == kHoist ? ShaperImpulses{} : memory.shares, limits.period_s,
+    step_axis(memory.limits[i], i == kHoist ? ShaperImpulses{} : memory.impulses, limits.period_s,
               usable(wanted[i], memory.limits[i].speed), memory.axis[i]);
   for (const std::size_t i : {kTrolley, kSlew})
     follow(memory.frequency_radps, limits.period_s, memory.axis[i]);

@@ -28,13 +28,13 @@ int steps_of(const plant::PerAxis& from, const plant::PerAxis& to) noexcept {
 
 }  // namespace
 
-double clearance_m(const Zone& zone, const ReachedSpace& reach, double suspension_height_m) noexcept {
-  const double beside = outline_distance_m(zone, reach.x_m, reach.y_m) - reach.radius_m;
-  const double above = reach.lowest_m - zone.top_m, below = zone.bottom_m - suspension_height_m;
+double clearance_m(const Zone& zone, const ReachedSpace& space, double suspension_height_m) noexcept {
+  const double beside = outline_distance_m(zone, space.x_m, space.y_m) - space.radius_m;
+  const double above = space.lowest_m - zone.top_m, below = zone.bottom_m - suspension_height_m;
   return std::max({beside, above, below});
 }
 
-ReachedSpace resting_reach(const Clearance& clearance, double gravity_mps2, double trolley_m, double slew_rad,
+ReachedSpace resting_space(const Clearance& clearance, double gravity_mps2, double trolley_m, double slew_rad,
                            double cable_m) noexcept {
   const double longest_m = cable_m * (1 + clearance.cable_error);
   return {.x_m = trolley_m * std::cos(slew_rad),
@@ -52,7 +52,7 @@ const Zone* zone_in_path(std::span<const Zone> zones, const Clearance& clearance
     for (int i = 0; i <= steps; ++i) {
       const double share = static_cast<double>(i) / steps;
       const auto at = [&](std::size_t axis) { return from[axis] + share * (to[axis] - from[axis]); };
-      const double gap_m = clearance_m(zone, resting_reach(clearance, gravity_mps2, at(0), at(1), at(2)),
+      const double gap_m = clearance_m(zone, resting_space(clearance, gravity_mps2, at(0), at(1), at(2)),
                                        clearance.suspension_height_m);
       if (i == 0) closest_m = std::min(closest_m, gap_m);
       if (!(gap_m >= closest_m - kRounding_m)) return &zone;

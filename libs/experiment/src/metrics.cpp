@@ -125,7 +125,7 @@ std::vector<Move> moves_of(const Scenario& scenario) {
   std::vector<Move> moves = scenario.moves;
   for (const Excitation& excitation : scenario.excitations) {
     Move move{.at_s = excitation.at_s, .target = {}};
-    move.target[excitation.reference.axis] = excitation.reference.about;
+    move.target[excitation.reference.axis] = excitation.reference.mean_position;
     moves.push_back(move);
   }
   std::ranges::stable_sort(moves, {}, &Move::at_s);
@@ -166,7 +166,7 @@ Maneuver maneuver_of(const Scenario& scenario, const configuration::Rig& rig) {
   Maneuver maneuver;
   maneuver.first_action_s = scenario.first_action_s();
   maneuver.last_action_s = scenario.last_action_s();
-  maneuver.to = started_by(rig, scenario).start.position;
+  maneuver.to = with_start_of(rig, scenario).start.position;
   maneuver.from = maneuver.to;
   const std::vector<Move> moves = moves_of(scenario);
   for (const Move& move : moves) {

@@ -96,9 +96,9 @@ void read_start(TomlTable& root, const Rig* rig, Scenario& scenario) {
   if (scenario.start[plant::kHoist] && !plant::kCableLengths.contains(*scenario.start[plant::kHoist]))
     start.problem("cable_length_m", plant::kCableLengths.rule());
   scenario.swing_radial_rad =
-      angle(start, {"swing_radial_rad", "swing_radial_deg"}, plant::kSwings).value_or(0);
+      angle(start, {"swing_radial_rad", "swing_radial_deg"}, plant::kSwingAngles).value_or(0);
   scenario.swing_tangential_rad =
-      angle(start, {"swing_tangential_rad", "swing_tangential_deg"}, plant::kSwings).value_or(0);
+      angle(start, {"swing_tangential_rad", "swing_tangential_deg"}, plant::kSwingAngles).value_or(0);
 }
 
 void read_moves(TomlTable& root, const Rig* rig, Scenario& scenario) {
@@ -140,7 +140,8 @@ void check_excursion(TomlTable& table, const std::string& key, const Rig& rig,
   double excursion = 0;
   for (const control::Sine& sine : reference.sines) excursion += std::abs(sine.amplitude);
   const double low = drive.low_limit + drive.soft_margin, high = drive.high_limit - drive.soft_margin;
-  if (reference.about - excursion < low - kRounding || reference.about + excursion > high + kRounding)
+  if (reference.mean_position - excursion < low - kRounding ||
+      reference.mean_position + excursion > high + kRounding)
     table.problem(key, "with its sines must stay in [" + shortest(low) + ", " + shortest(high) +
                            "], the travel of " + rig.name + " minus the soft margin");
 }
@@ -155,7 +156,7 @@ void read_excitations(TomlTable& root, const Rig* rig, Scenario& scenario) {
     while (reference.axis + 1 < plant::kAxes && axis != plant::kCoordinates[reference.axis].name)
       ++reference.axis;
     const std::string about_key = std::string{"about_"} + plant::kCoordinates[reference.axis].unit;
-    reference.about = table.number(about_key, kPositions);
+    reference.mean_position = table.number(about_key, kPositions);
     reference.sines =
         read_sines(table, std::string{"amplitudes_"} + plant::kCoordinates[reference.axis].unit);
     reference.duration_s = table.number("duration_s", kDurations, 0);
@@ -238,7 +239,7 @@ Scenario load_scenario(const std::filesystem::path& file, const Rig* rig) {
   return parse_scenario(configuration::file_text(file), file.string(), rig);
 }
 
-Rig started_by(Rig rig, const Scenario& scenario) {
+Rig with_start_of(Rig rig, const Scenario& scenario) {
   for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
     rig.start.position[axis] = scenario.start[axis].value_or(rig.start.position[axis]);
   rig.start.swing_radial_rad = scenario.swing_radial_rad;

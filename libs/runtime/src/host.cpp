@@ -33,7 +33,7 @@ void enter_realtime(RealtimeScheduling& scheduling, Node& node, int priority) {
   if (answer.memory != 0)
     node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(answer.memory),
                  "grant CAP_IPC_LOCK or raise the memlock limit");
-  end_when_spinning();
+  limit_spin_time();
   if (answer.scheduling != 0)
     node.warning("no_realtime_scheduling",
                  std::string{"SCHED_FIFO not permitted: "} + std::strerror(answer.scheduling),
@@ -61,7 +61,7 @@ int host(int argc, char** argv, const std::string& program, const std::string& s
     log_without_waiting();
     spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::warn);
     install_stop_signals();
-    if (options.parent != 0) die_with(options.parent);
+    if (options.parent != 0) end_with_parent(options.parent);
     return run(options);
   } catch (const configuration::ConfigurationError& error) {
     std::cerr << error.what() << '\n';

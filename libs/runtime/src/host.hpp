@@ -12,7 +12,7 @@ namespace crane::runtime {
 inline constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
 
 /// Requests real-time scheduling for this process (RealtimeScheduling::enter()) and sets the limit of
-/// end_when_spinning(). Logs a warning of `node` when the system denies a request.
+/// limit_spin_time(). Logs a warning of `node` when the system denies a request.
 /// @param priority  0: ordinary scheduling
 void enter_realtime(RealtimeScheduling& scheduling, Node& node, int priority);
 

@@ -37,13 +37,13 @@ int run_loop(const std::vector<ComponentSpec>& specs, const LoopOptions& options
   auto joining = bus_options(options.bus, std::string{kLoopProgram}, specs.front().source, new_epoch());
   joining.ledger = options.ledger.empty() ? bus::Ledger::create() : bus::Ledger::open(options.ledger);
   bus::Bus participant{std::move(joining)};
-  refuse_second_writer(participant, writes_of(specs), kSoleLoopLook);
+  refuse_second_writer(participant, writes_of(specs), kLoopWriterSearchTime);
   RealtimeScheduling scheduling;
   InProcessStack stack{specs, rig, controller, [&](const ComponentSpec& spec) {
                          return participant.share(spec.source, new_epoch());
                        }};
   enter_realtime(scheduling, stack.node(0), options.priority);
-  end_when_growing();
+  limit_memory_growth();
   while (!stop_requested()) {
     stack.pump();
     stack.wait(monotonic_ns() + kLongest_ns);

@@ -20,7 +20,7 @@ std::size_t data_bytes() {
 
 }  // namespace
 
-void end_when_growing() {
+void limit_memory_growth() {
   rlimit limit{};
   const bool known = ::getrlimit(RLIMIT_DATA, &limit) == 0;
   const rlim_t most = data_bytes() + kMostGrowth_bytes;

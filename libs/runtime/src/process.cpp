@@ -70,7 +70,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   RealtimeScheduling scheduling;  // outlives the component, which closes the brakes when it ends
   HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};
   if (clock == Clock::realtime) enter_realtime(scheduling, hosted.node(), options.priority);
-  end_when_growing();
+  limit_memory_growth();
   if (hosted.component().paced())
     loop_paced(hosted.component());
   else
@@ -146,12 +146,13 @@ std::string named_writers(const bus::CdrSubscriber& probe) {
 
 }  // namespace
 
-void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes, std::chrono::milliseconds look) {
+void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes,
+                          std::chrono::milliseconds search_time) {
   std::vector<bus::CdrSubscriber> probes;
   for (const auto& write : writes)
     if (write.topic->every_tick) probes.push_back(bus.cdr_subscriber(*write.topic));
   if (probes.empty()) return;
-  const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{look}.count();
+  const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{search_time}.count();
   while (monotonic_ns() < end_ns && !stop_requested()) {
     bus.wait(std::chrono::milliseconds{10});
     refuse_other_version(bus);

@@ -30,7 +30,7 @@ void install_stop_signals() {
   on(SIGPIPE, SIG_IGN);
 }
 
-void die_with(int parent) {
+void end_with_parent(int parent) {
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0)
     throw std::system_error{errno, std::generic_category(), "prctl(PR_SET_PDEATHSIG)"};
   if (::getppid() != parent)

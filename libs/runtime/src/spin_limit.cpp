@@ -7,7 +7,7 @@
 
 namespace crane::runtime {
 
-void end_when_spinning() {
+void limit_spin_time() {
   const auto spin_us = static_cast<rlim_t>(std::chrono::microseconds{kLongestSpin}.count());
   const rlimit limit{.rlim_cur = spin_us, .rlim_max = 2 * spin_us};
   if (::setrlimit(RLIMIT_RTTIME, &limit) != 0)

@@ -50,7 +50,7 @@ control::Excitation multi_sine(std::size_t axis, double amplitude, const Excitat
   require_positive("duration_s", duration_s);
   control::Excitation excitation;
   excitation.axis = axis;
-  excitation.about = (limits.low + limits.high) / 2;
+  excitation.mean_position = (limits.low + limits.high) / 2;
   excitation.duration_s = duration_s;
   excitation.sines[0] = {-0.4 * amplitude, 1.0 / 3, 0};
   excitation.sines[1] = {0.3 * amplitude, 1.0 / 4, 0};
@@ -85,7 +85,7 @@ control::Excitation break_away_sine(std::size_t axis, const ExcitationLimits& li
                                 text(stiffness_vpu) + " V per m or rad");
   control::Excitation excitation;
   excitation.axis = axis;
-  excitation.about = (limits.low + limits.high) / 2;
+  excitation.mean_position = (limits.low + limits.high) / 2;
   excitation.sines[0] = {amplitude, ramp_vps / stiffness_vpu / (amplitude * kTwoPi), 0};
   excitation.duration_s = repetitions / excitation.sines[0].frequency_hz;
   return excitation;

@@ -65,7 +65,7 @@ std::vector<std::string> SimulatedRig::problems() const {
   }
   report.require(start.cable_m > 0, "start.cable_m", start.cable_m, "must be positive");
   const auto swing = [&](const char* name, double angle) {
-    report.require(plant::kSwings.contains(angle), name, angle, plant::kSwings.rule());
+    report.require(plant::kSwingAngles.contains(angle), name, angle, plant::kSwingAngles.rule());
   };
   swing("start.radial_rad", start.radial_rad);
   swing("start.tangential_rad", start.tangential_rad);

@@ -63,7 +63,7 @@ GainRange range_of(const std::string& text) {
 
 LoopDamping damping_function(const DampingOptions& options, AntiSwing law, int pade) {
   const analysis::TrackingGains tracking{options.tracking, 2 * std::sqrt(options.tracking)};
-  const double highest = options.highest * analysis::kHighest / 8;
+  const double highest = options.highest * analysis::kHighestFrequency / 8;
   return [=](const GainPoint& gains) {
     const auto f = characteristic(law, gains, tracking);
     return pade > 0 ? pade_damping_of(f, pade, highest) : damping_of(f, highest);

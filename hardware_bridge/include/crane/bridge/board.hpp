@@ -14,12 +14,12 @@ inline constexpr std::size_t kDrives = 3;    ///< trolley, slew, hoist
 
 /// Inputs of one instant.
 struct Inputs {
-  std::array<std::int32_t, kCounters> raw_counts{};  ///< 24-bit two's complement, sign-extended; wraps
-  std::array<bool, kDrives> limit_low{}, limit_high{};
-  std::array<bool, kDrives> mark{};  ///< Mark::input; true: the axis is at or below its homing mark
-  std::array<bool, kDrives> brake_closed{};
-  bool estop_pressed = false;
-  bool watchdog_dropped = false;  ///< true: the relay has removed the brake supply
+  std::array<std::int32_t, kCounters> raw_counts{};     ///< 24-bit two's complement, sign-extended; wraps
+  std::array<bool, kDrives> limit_low{}, limit_high{};  ///< true: the limit switch of the axis is pressed
+  std::array<bool, kDrives> mark{};          ///< Mark::input; true: the axis is at or below its homing mark
+  std::array<bool, kDrives> brake_closed{};  ///< true: the contact of the brake reports closed
+  bool estop_pressed = false;                ///< true: the emergency stop is pressed
+  bool watchdog_dropped = false;             ///< true: the relay has removed the brake supply
 };
 
 /// Outputs of one tick.

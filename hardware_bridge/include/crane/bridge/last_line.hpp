@@ -68,10 +68,10 @@ inline constexpr std::size_t kReasons = 15;
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
 /// Parameters of one drive axis; unit is m or rad.
-struct AxisLine : control::DriveLimits {
-  double certain_motion_v = 5;   ///< a larger voltage moves the axis against any friction and load
-  double creeping_motion_v = 2;  ///< as certain_motion_v, during homing of the axis
-  /// V: a fault if the axis accelerates as with this voltage more than commanded
+struct AxisCheckParameters : control::DriveLimits {
+  double certain_motion_v = 5;         ///< a larger voltage moves the axis against any friction and load
+  double certain_homing_motion_v = 2;  ///< as certain_motion_v, during homing of the axis
+  /// V: the check fails when the axis accelerates as if driven by this voltage in addition to the command
   double response_margin_v = 2.5;
   /// Smallest and largest gain: unit/s^2 per volt when lag_s is 0, otherwise unit/s per volt.
   double gain_low = 0;
@@ -82,7 +82,7 @@ struct AxisLine : control::DriveLimits {
 struct LastLineParameters {
   double period_s = 0.01;
   std::uint64_t stale_after_ticks = 5;  ///< age of the newest command that stops the crane
-  std::array<AxisLine, kDrives> axis{};
+  std::array<AxisCheckParameters, kDrives> axis{};
   double swing_limit_rad = 1.05;     ///< above the limit of the supervisor, which reacts first
   double swing_rate_max_radps = 10;  ///< a larger rate cannot be a motion of the load
   std::array<bool, 2> swing_present{};

@@ -49,7 +49,7 @@ std::string configuration(const Options& options, bool numbered = true) {
   }
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
   const bool network = crosses_network(options);
-  const bool often = network || options.confirms_soon;
+  const bool often = network || options.fast_heartbeats;
   const auto heartbeat = std::to_string((often ? kNetworkHeartbeat : kHeartbeat).count()) + "ms";
   const std::string least = often ? "1ms" : "20ms";
   xml += "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"1s\">" + heartbeat;

@@ -150,7 +150,7 @@ void AxisAdaptation::finish_block(LevelFilter& filter) noexcept {
 
 bool AxisAdaptation::excited(std::size_t direction, const LevelFilter& filter) const noexcept {
   return report_.direction[direction].blocks >= kLeastBlocks &&
-         filter.coulomb_v(axis_, direction).deviation <= kExcitedShare * file_[direction].coulomb_v;
+         filter.coulomb_v(axis_, direction).std_dev <= kExcitedShare * file_[direction].coulomb_v;
 }
 
 FrictionLevels AxisAdaptation::wanted(std::size_t direction, const LevelFilter& filter) const noexcept {
@@ -160,11 +160,11 @@ FrictionLevels AxisAdaptation::wanted(std::size_t direction, const LevelFilter& 
   const double lowest = 1 - share_, highest = std::min(1 + share_, ceiling_[direction]);
   FrictionLevels levels;
   levels.coulomb_v =
-      std::clamp(c.value - kMargin * c.deviation, lowest * file.coulomb_v, highest * file.coulomb_v);
+      std::clamp(c.value - kMargin * c.std_dev, lowest * file.coulomb_v, highest * file.coulomb_v);
   levels.viscous_vspm =
       std::clamp(b.value, (1 - viscous_share_) * file.viscous_vspm, (1 + viscous_share_) * file.viscous_vspm);
   const double certain_excess =
-      excess.value_v - kMargin * std::sqrt(excess.variance + squared_v(c.deviation)) + kMargin * c.deviation;
+      excess.value_v - kMargin * std::sqrt(excess.variance + squared_v(c.std_dev)) + kMargin * c.std_dev;
   const double static_v = levels.coulomb_v + std::max(0.0, certain_excess);
   levels.static_v = std::clamp(static_v, lowest * file.static_v, highest * file.static_v);
   return levels;
@@ -175,7 +175,7 @@ void AxisAdaptation::lower(std::size_t d, double speed, const LevelFilter& filte
   FrictionLevels& target = target_[d];
   const Estimated shown = filter.moving_v(axis_, d, speed);
   const double compensated_v = target.coulomb_v + target.viscous_vspm * speed;
-  const double least_v = shown.value + kLowerMargin * shown.deviation + kLowerShare * file_[d].coulomb_v;
+  const double least_v = shown.value + kLowerMargin * shown.std_dev + kLowerShare * file_[d].coulomb_v;
   excess_blocks_ = compensated_v > least_v ? excess_blocks_ + 1 : 0;
   if (excess_blocks_ < kLowerBlocks) return;
   const double kept = std::max(shown.value / compensated_v, 0.0);
@@ -277,10 +277,10 @@ void AxisAdaptation::describe(const LevelFilter& filter) noexcept {
     DirectionReport& shown = report_.direction[d];
     const BreakAway::Excess& excess = break_away_.excess(d);
     shown.estimate = {c.value, b.value, c.value + excess.value_v};
-    shown.deviation = {c.deviation, b.deviation, std::sqrt(squared_v(c.deviation) + excess.variance)};
+    shown.std_dev = {c.std_dev, b.std_dev, std::sqrt(squared_v(c.std_dev) + excess.variance)};
     shown.used = used_[d];
     const double prior = filter.prior_coulomb_deviation(axis_, d);
-    if (prior > 0) known += std::clamp(1 - c.deviation / prior, 0.0, 1.0) / 2;
+    if (prior > 0) known += std::clamp(1 - c.std_dev / prior, 0.0, 1.0) / 2;
   }
   report_.confidence = known;
 }

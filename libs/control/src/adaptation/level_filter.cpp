@@ -122,14 +122,14 @@ bool LevelFilter::payload_at_bound() const noexcept {
 }
 
 Estimated LevelFilter::at(int i) const noexcept {
-  return {.value = estimate_[i], .deviation = std::sqrt(std::max(0.0, covariance_(i, i)))};
+  return {.value = estimate_[i], .std_dev = std::sqrt(std::max(0.0, covariance_(i, i)))};
 }
 
 Estimated LevelFilter::moving_v(std::size_t axis, std::size_t direction, double speed) const noexcept {
   const int c = index(axis, direction), b = c + 1;
   const double variance =
       covariance_(c, c) + 2 * speed * covariance_(c, b) + speed * speed * covariance_(b, b);
-  return {.value = estimate_[c] + estimate_[b] * speed, .deviation = std::sqrt(std::max(0.0, variance))};
+  return {.value = estimate_[c] + estimate_[b] * speed, .std_dev = std::sqrt(std::max(0.0, variance))};
 }
 
 double LevelFilter::noise_v(std::size_t axis) const noexcept {

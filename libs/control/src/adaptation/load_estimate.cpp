@@ -131,12 +131,12 @@ void LoadEstimate::update(std::size_t plane, double curvature, double known) noe
 }
 
 Estimated LoadEstimate::length_m() const noexcept {
-  return {.value = measured_m_ + estimate_[0], .deviation = std::sqrt(std::max(0.0, covariance_(0, 0)))};
+  return {.value = measured_m_ + estimate_[0], .std_dev = std::sqrt(std::max(0.0, covariance_(0, 0)))};
 }
 
 Estimated LoadEstimate::offset_rad(std::size_t plane) const noexcept {
   const auto i = static_cast<Eigen::Index>(1 + plane);
-  return {.value = estimate_[i], .deviation = std::sqrt(std::max(0.0, covariance_(i, i)))};
+  return {.value = estimate_[i], .std_dev = std::sqrt(std::max(0.0, covariance_(i, i)))};
 }
 
 }  // namespace crane::control::adaptation

@@ -93,7 +93,7 @@ class Grid {
   }
   bool is_open(int node) noexcept {
     const auto& here = gap(node);
-    if (here.clearance_m >= kPassGap_m) return true;
+    if (here.clearance_m >= kPassClearance_m) return true;
     blocking_[here.zone] = 1;
     return false;
   }
@@ -147,8 +147,8 @@ class Grid {
   }
 
   bool is_free(int node, int next, double distance_m) {
-    if ((gap(node).clearance_m + gap(next).clearance_m - distance_m) / 2 >= kPassGap_m) return true;
-    const Leg leg = leg_of(space_, place(node), place(next), kPassGap_m);
+    if ((gap(node).clearance_m + gap(next).clearance_m - distance_m) / 2 >= kPassClearance_m) return true;
+    const Leg leg = leg_of(space_, place(node), place(next), kPassClearance_m);
     if (!leg.is_free) blocking_[leg.zone] = 1;
     return leg.is_free;
   }
@@ -181,10 +181,10 @@ class Grid {
 }  // namespace
 
 Leg end_leg(const PathSpace& space, const PerAxis& from, const PerAxis& to) {
-  Leg leg = leg_of(space, from, to, kRestGap_m);
-  if (leg.is_free || closest_zone(space, from).clearance_m >= kRestGap_m) return leg;
+  Leg leg = leg_of(space, from, to, kRestClearance_m);
+  if (leg.is_free || closest_zone(space, from).clearance_m >= kRestClearance_m) return leg;
   leg.is_free =
-      zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
+      zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestClearance_m) == nullptr;
   leg.speed_share = speed_share(space, from, to, 0);
   leg.duration_s = cruise_time_s(space, from, to, leg.speed_share);
   return leg;

@@ -14,8 +14,8 @@ namespace crane::control {
 [[nodiscard]] std::optional<std::vector<PerAxis>> search_grid(const PathSpace& space, const PerAxis& from,
                                                               const PerAxis& to, std::vector<char>& blocking);
 
-/// First or last leg of a path: its least clearance is kRestGap_m, and it may begin below this clearance if
-/// it increases the clearance.
+/// First or last leg of a path: its least clearance is kRestClearance_m, and it may begin below this
+/// clearance if it increases the clearance.
 [[nodiscard]] Leg end_leg(const PathSpace& space, const PerAxis& from, const PerAxis& to);
 
 }  // namespace crane::control

@@ -34,7 +34,7 @@ double passing_speed_mps(const PathSpace& space, double clearance_m, double cabl
   // A stop from the speed v leaves a swing of v sqrt(L/g). The acceleration before the stop may have left the
   // same swing.
   const double swing_s = 2 * std::sqrt(cable_m * (1 + space.clearance.cable_error) / space.gravity_mps2);
-  return std::max(kSlowest_mps, (clearance_m - kRestGap_m - kBlend_m) / (swing_s + kReaction_s));
+  return std::max(kSlowest_mps, (clearance_m - kRestClearance_m - kBlend_m) / (swing_s + kReaction_s));
 }
 
 double cruise_time_s(const PathSpace& space, const PerAxis& from, const PerAxis& to, double share) noexcept {
@@ -61,7 +61,7 @@ PerAxis completed(const PathSpace& space, PerAxis position) noexcept {
 }
 
 ClosestZone closest_zone(const PathSpace& space, const PerAxis& position) noexcept {
-  const auto reached = resting_reach(space.clearance, space.gravity_mps2, position[kTrolley], position[kSlew],
+  const auto reached = resting_space(space.clearance, space.gravity_mps2, position[kTrolley], position[kSlew],
                                      position[kHoist]);
   ClosestZone closest{.clearance_m = std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < space.zones.size(); ++i) {
@@ -78,7 +78,7 @@ ClosestZone closest_zone(const PathSpace& space, const PerAxis& position) noexce
 }
 
 double straight_clearance_m(const PathSpace& space, const PerAxis& from, const PerAxis& to) noexcept {
-  return leg_of(space, from, to, kRestGap_m).clearance_m;
+  return leg_of(space, from, to, kRestClearance_m).clearance_m;
 }
 
 Leg leg_of(const PathSpace& space, const PerAxis& from, const PerAxis& to,

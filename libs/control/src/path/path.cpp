@@ -19,7 +19,7 @@ struct TimedPath {
 /// Leg between two places of a path.
 Leg leg_between(const PathSpace& space, const std::vector<PerAxis>& places, std::size_t i, std::size_t j) {
   if (i == 0 || j + 1 == places.size()) return end_leg(space, places[i], places[j]);
-  return leg_of(space, places[i], places[j], kPassGap_m);
+  return leg_of(space, places[i], places[j], kPassClearance_m);
 }
 
 /// Corners of a path over the grid, and places between them.
@@ -97,7 +97,7 @@ std::optional<TimedPath> over(const PathSpace& space, const PerAxis& from, const
                               double shortest_m, double longest_m) {
   constexpr int kHalvings = 8;
   const auto leg_at = [&](double cable_m) {
-    return leg_of(space, at_cable(from, cable_m), at_cable(to, cable_m), kPassGap_m);
+    return leg_of(space, at_cable(from, cable_m), at_cable(to, cable_m), kPassClearance_m);
   };
   if (!(shortest_m < longest_m) || !leg_at(shortest_m).is_free) return std::nullopt;
   double high_m = shortest_m, low_m = longest_m;
@@ -135,7 +135,7 @@ Path path_to(const PathSpace& space, const PerAxis& measured, const PerAxis& wan
   const double distance_m = ground_distance_m(from, to) + std::abs(to[kHoist] - from[kHoist]);
   if (!(distance_m <= kLargestDistance_m)) return {.outcome = PathOutcome::no_path};
   const bool straight =
-      zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
+      zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestClearance_m) == nullptr;
   std::optional<TimedPath> path;
   if (straight) {
     const Leg leg = end_leg(space, from, to);
@@ -143,7 +143,7 @@ Path path_to(const PathSpace& space, const PerAxis& measured, const PerAxis& wan
     path =
         TimedPath{.points = {{.position = to, .speed_share = speed_share(space, from, to, leg.clearance_m)}}};
     path->duration_s = cruise_time_s(space, from, to, path->points[0].speed_share);
-  } else if (const auto target = closest_zone(space, to); !(target.clearance_m >= kRestGap_m)) {
+  } else if (const auto target = closest_zone(space, to); !(target.clearance_m >= kRestClearance_m)) {
     return {.outcome = PathOutcome::target_inside, .blocking = {target.zone}};
   }
   const double longest_m = std::min(from[kHoist], to[kHoist]);

@@ -59,7 +59,7 @@ Route::Route(const PathSpace& space, const PerAxis& start, const std::vector<Way
       const PerAxis early = along(corner, before.displacement,
                                   before.profile.at(before.profile.duration_s() - window_s).position - 1);
       const PerAxis late = along(corner, displacement, leg.profile.at(window_s).position);
-      const Leg chord = leg_of(space, completed(space, early), completed(space, late), kPassGap_m);
+      const Leg chord = leg_of(space, completed(space, early), completed(space, late), kPassClearance_m);
       const double speed_mps = std::max(speed_over_ground_mps(early, before.displacement, before.profile),
                                         speed_over_ground_mps(corner, displacement, leg.profile));
       const bool blends =

@@ -1,7 +1,7 @@
 #pragma once
-/// Names of the protections that are no rules of the supervisor (supervisor/src/rules.cpp names those). A
-/// build with CRANE_MUTATION can disable one protection; tests/campaign then shows that a fault violates an
-/// invariant without it. In every other build, `enabled` is true, and the compiler removes the check.
+/// Names of the protections outside the rule table of the supervisor; supervisor/src/rules.cpp names the
+/// rules. A build with CRANE_MUTATION can disable one protection; tests/campaign then shows that a fault
+/// violates an invariant. In every other build, `enabled` is true, and the compiler removes the check.
 #include <array>
 #include <cstddef>
 #include <cstdint>

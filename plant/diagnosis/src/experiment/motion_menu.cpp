@@ -71,7 +71,8 @@ class Menu {
   /// Appends a reference after the others.
   void append(SafeMotion& motion, Axis axis, const std::vector<control::Sine>& sines,
               double duration_s) const {
-    TimedExcitation next{.at_s = kFirstAction_s, .reference = {.axis = axis, .about = motion.start[axis]}};
+    TimedExcitation next{.at_s = kFirstAction_s,
+                         .reference = {.axis = axis, .mean_position = motion.start[axis]}};
     if (!motion.references.empty()) {
       const TimedExcitation& last = motion.references.back();
       next.at_s = last.at_s + last.reference.duration_s + kPauseBetween_s;
@@ -233,7 +234,7 @@ std::string scenario_text(const SafeMotion& motion, const configuration::Rig& ri
     const bool slew = part.reference.axis == kSlew;
     out << "\n[[excitation]]\nat_s = " << shortest(part.at_s) << "\naxis = \"" << (slew ? "slew" : "trolley")
         << "\"\n"
-        << (slew ? "about_rad = " : "about_m = ") << shortest(part.reference.about) << '\n';
+        << (slew ? "about_rad = " : "about_m = ") << shortest(part.reference.mean_position) << '\n';
     write_numbers(out, slew ? "amplitudes_rad" : "amplitudes_m", part.reference, &control::Sine::amplitude);
     write_numbers(out, "frequencies_hz", part.reference, &control::Sine::frequency_hz);
     out << "duration_s = " << shortest(part.reference.duration_s) << '\n';

@@ -11,8 +11,8 @@ struct EnvelopeInput {
   double swing_tangential_rad = 0;
   AxisFlags limit_low{}, limit_high{};  ///< limit switches
   double speed_share = 1;               ///< share of max_speed that the operating mode permits, (0, 1]
-  /// True: the position has no known origin. Position limits do not apply, OVERSPEED begins at creeping_ratio
-  /// times the homing speed, and a limit switch blocks voltage towards it.
+  /// True: the position has no known origin. Position limits do not apply, OVERSPEED begins at
+  /// homing_overspeed_ratio times the homing speed, and a limit switch blocks voltage towards it.
   AxisFlags unknown{};
 };
 

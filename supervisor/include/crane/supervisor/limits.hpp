@@ -83,7 +83,7 @@ struct Limits : control::OperatingLimits {
   /// (2 reference_acceleration), the distance in which a move reaches its speed.
   PerAxis largest_follow_jump{};
   /// overspeed of an axis without known position: multiple of its homing speed, >= 1
-  double creeping_ratio = 2.5;
+  double homing_overspeed_ratio = 2.5;
 };
 
 /// Number of ticks of a ramped stop, at least 1. The command of the last tick is 0 V with closed brakes.

@@ -37,10 +37,11 @@ struct ZoneMemory {
 };
 
 struct ZoneVerdict {
-  bool ahead = false;      ///< true: without a controlled stop now, a ramped stop may become necessary
-  bool touched = false;    ///< true: the reached space touches a zone: 0 V, ramped stop
-  std::size_t zone = 0;    ///< index of the zone that requires the stop; without a stop, of the zone whose
-                           ///< clearance exceeds its permitted clearance least
+  bool needs_controlled_stop = false;  ///< true: must begin now to exclude a later ramped stop
+  bool needs_ramped_stop = false;      ///< true: the reached space touches a zone: 0 V, ramped stop
+  /// Index of the zone that requires the stop; without a stop: of the zone with the smallest clearance minus
+  /// permitted clearance.
+  std::size_t zone = 0;
   double clearance_m = 0;  ///< m, distance between the reached space and this zone; <= 0: they touch
 };
 
@@ -60,7 +61,7 @@ void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memo
                                        ZoneMemory& memory) noexcept;
 
 /// The reached space, for tests and documents.
-[[nodiscard]] control::ReachedSpace ramped_reach(const Limits& limits, const ZoneInput& input,
-                                                 const ZoneMemory& memory) noexcept;
+[[nodiscard]] control::ReachedSpace ramped_stop_space(const Limits& limits, const ZoneInput& input,
+                                                      const ZoneMemory& memory) noexcept;
 
 }  // namespace crane::supervisor

@@ -8,10 +8,10 @@
 
 namespace crane::analysis {
 
-/// A loop with delay has infinite chains of roots, whose damping ratio tends to zero and whose decay rate
-/// increases with |s|. "All roots" are therefore the roots with Im s up to this limit, eight load
-/// frequencies, in radians per load period.
-inline constexpr double kHighest = 50.26548245743669;  // 16 pi
+/// Highest frequency Im s of the roots that count, in radians per load period: eight load frequencies. A
+/// loop with delay has infinitely many roots, whose damping ratio tends to zero with increasing |s|. "All
+/// roots" below are the roots up to this frequency.
+inline constexpr double kHighestFrequency = 50.26548245743669;  // 16 pi
 
 struct Damping {
   /// Damping ratio of the right-most complex pair, the measure of the source; 1 without a complex pair.
@@ -22,11 +22,12 @@ struct Damping {
 };
 
 /// Damping of the given roots. @pre at least one root; Im s >= 0 for all roots
-[[nodiscard]] Damping damping_of(std::span<const Complex> roots, double highest = kHighest);
+[[nodiscard]] Damping damping_of(std::span<const Complex> roots, double highest = kHighestFrequency);
 /// Damping of the exact roots of f.
-[[nodiscard]] Damping damping_of(const QuasiPolynomial& f, double highest = kHighest);
+[[nodiscard]] Damping damping_of(const QuasiPolynomial& f, double highest = kHighestFrequency);
 /// Damping of the roots with the Pade approximation (3.49) of the delay.
-[[nodiscard]] Damping pade_damping_of(const QuasiPolynomial& f, int order, double highest = kHighest);
+[[nodiscard]] Damping pade_damping_of(const QuasiPolynomial& f, int order,
+                                      double highest = kHighestFrequency);
 
 using LoopDamping = std::function<Damping(const GainPoint&)>;
 

@@ -50,7 +50,7 @@ struct Options {
   /// True: Cyclone DDS sends heartbeats every 2 ms on loop-back, too, instead of every 100 ms.
   /// Publisher::wait_until_acknowledged() then returns soon after the reception. Other vendors ignore this
   /// option.
-  bool confirms_soon = false;
+  bool fast_heartbeats = false;
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
   /// needs no credentials.
   std::optional<Credentials> credentials{};

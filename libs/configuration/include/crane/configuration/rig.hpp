@@ -71,10 +71,11 @@ struct Wiring {
   int base_address = 0x200;             ///< servo_to_go: 0x200 + 0x20 n
   std::string device = "/dev/comedi0";  ///< comedi: device file. Subdevices: those of an s626
   int counter_subdevice = 5, analog_output_subdevice = 1, input_subdevice = 2, output_subdevice = 3;
-  int estop_input = 0;            ///< the contact opens when the emergency stop is pressed
-  int relay_closed_input = 10;    ///< the contact closes with the watchdog relay
-  int watchdog_output = 19;       ///< must toggle every tick
-  double relay_timeout_s = 0.05;  ///< the watchdog relay opens when its input is constant for longer
+  int estop_input = 0;          ///< the contact opens when the emergency stop is pressed
+  int relay_closed_input = 10;  ///< the contact closes with the watchdog relay
+  int watchdog_output = 19;     ///< must toggle every tick
+  double relay_timeout_s =
+      0.05;  ///< the watchdog relay opens when the watchdog output is constant for longer
   std::array<DriveLines, plant::kAxes> drives{{{1, 2, 7, 16}, {3, 4, 8, 17}, {5, 6, 9, 18}}};
 
   bool operator==(const Wiring&) const = default;

@@ -39,7 +39,7 @@ enum class AdaptationFreeze : std::uint8_t {
 
 /// One direction of motion, since the start.
 struct DirectionReport {
-  FrictionLevels estimate, deviation;         ///< deviation: standard deviations
+  FrictionLevels estimate, std_dev;           ///< std_dev: standard deviations of the estimates
   FrictionLevels used;                        ///< levels of the compensation, before its factor
   std::uint32_t blocks = 0, break_aways = 0;  ///< accepted blocks (docs/adaptation.md#force-balance)
 };
@@ -57,7 +57,7 @@ struct AxisReport {
 
 /// A value with its standard deviation.
 struct Estimated {
-  double value = 0, deviation = 0;
+  double value = 0, std_dev = 0;
 };
 
 struct AdaptationReport {

@@ -13,7 +13,7 @@ using fields::Range;
 /// Range of an analog output: +-10 V.
 inline constexpr Range kDriveVolts = Range::above(0, 10);
 /// Opening and closing times, s. A brake that closes later than after 1 s cannot stop the crane in time.
-inline constexpr Range kBrakeTimes = Range::closed(0, 1);
+inline constexpr Range kBrakeTimeRange = Range::closed(0, 1);
 
 inline constexpr std::array<fields::Field<DriveLimits>, 9> kDriveLimitFields{{
     {.key = "volt_limit_v",
@@ -60,14 +60,14 @@ inline constexpr std::array<fields::Field<DriveLimits>, 9> kDriveLimitFields{{
      .quantity = Quantity::acceleration},
     {.key = "brake_close_time_s",
      .member = &DriveLimits::brake_close_time_s,
-     .range = kBrakeTimes,
+     .range = kBrakeTimeRange,
      .unit = "s",
-     .meaning = "time from the command to close until the brake is closed"},
+     .meaning = "time from the loss of the brake supply until the brake is closed"},
     {.key = "brake_open_time_s",
      .member = &DriveLimits::brake_open_time_s,
-     .range = kBrakeTimes,
+     .range = kBrakeTimeRange,
      .unit = "s",
-     .meaning = "time from the command to open until the brake is open"},
+     .meaning = "time from the supply of the brake until the brake is open"},
 }};
 
 inline constexpr std::array<fields::Field<Homing>, 5> kHomingFields{{

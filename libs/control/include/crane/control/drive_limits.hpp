@@ -44,8 +44,8 @@ struct DriveLimits {
   double soft_margin = 0;             ///< minimum distance of a target from the hard limits, unit
   double max_speed = 0;               ///< a higher speed stops the crane, unit/s
   double brake_deceleration = 0;      ///< smallest deceleration by the closed brake, unit/s^2
-  double brake_close_time_s = 0.02;   ///< time from the loss of supply to the closed brake, s
-  double brake_open_time_s = 0.02;    ///< time from the supply to the open brake, s
+  double brake_close_time_s = 0.02;   ///< time from the loss of supply until the brake is closed, s
+  double brake_open_time_s = 0.02;    ///< time from the supply of the brake until the brake is open, s
   double standstill_speed = 0.005;    ///< a lower speed counts as standstill, unit/s
   double brake_slip = 0.02;  ///< permitted motion with a closed brake after the braking distance, unit
   Zero zero = Zero::start;

@@ -16,13 +16,13 @@ struct Sine {
 
 struct Excitation {
   std::size_t axis = kTrolley;
-  double about = 0;             ///< mean position: m, rad, m of cable
+  double mean_position = 0;     ///< mean position: m, rad, m of cable
   std::array<Sine, 4> sines{};  ///< amplitude 0: unused
   double duration_s = 0;        ///< >= 0
 
-  /// The reference starts and ends at rest at `about`. The sines fade in and out over kFade_s each, at most
-  /// over half the duration. With duration 0 or without sines the reference is a step to `about`. No
-  /// allocation.
+  /// The reference starts and ends at rest at `mean_position`. The sines fade in and out over kFade_s each,
+  /// at most over half the duration. With duration 0 or without sines the reference is a step to
+  /// `mean_position`. No allocation.
   [[nodiscard]] AxisReference at(double time_s) const noexcept;
 
   static constexpr double kFade_s = 3;

@@ -15,36 +15,36 @@ struct OperatingLimits {
   bool operator==(const OperatingLimits&) const = default;
 };
 
-/// A limit above plant::kSwings would have no effect.
-inline constexpr fields::Range kSwingLimits = fields::Range::above(0, plant::kSwings.high);
+/// A limit above plant::kSwingAngles would have no effect.
+inline constexpr fields::Range kSwingLimitRange = fields::Range::above(0, plant::kSwingAngles.high);
 /// At most one day.
-inline constexpr fields::Range kIdleTimes = fields::Range::above(0, 86400);
+inline constexpr fields::Range kIdleTimeRange = fields::Range::above(0, 86400);
 /// At most 0.1 s: at 1 m/s an axis moves 0.1 m in this time, the smallest soft margin of the deployed
 /// rigs.
-inline constexpr fields::Range kSilences = fields::Range::above(0, 0.1);
+inline constexpr fields::Range kStaleTimeRange = fields::Range::above(0, 0.1);
 
 inline constexpr std::array kOperatingLimitFields{
     fields::Field<OperatingLimits>{.key = "swing_limit_rad",
                                    .member = &OperatingLimits::swing_limit_rad,
-                                   .range = kSwingLimits,
+                                   .range = kSwingLimitRange,
                                    .unit = "rad",
                                    .meaning = "a larger swing angle stops the crane"},
     fields::Field<OperatingLimits>{.key = "stale_after_s",
                                    .member = &OperatingLimits::stale_after_s,
-                                   .range = kSilences,
+                                   .range = kStaleTimeRange,
                                    .unit = "s",
                                    .meaning = "the bridge stops the crane when the newest command is older; "
                                               "rounded down to whole ticks, at least one"},
     fields::Field<OperatingLimits>{.key = "demand_stale_after_s",
                                    .member = &OperatingLimits::demand_stale_after_s,
-                                   .range = kSilences,
+                                   .range = kStaleTimeRange,
                                    .unit = "s",
                                    .meaning = "the supervisor stops the crane after this time without a "
                                               "demand; rounded down to whole ticks, at "
                                               "least one"},
     fields::Field<OperatingLimits>{.key = "idle_lock_s",
                                    .member = &OperatingLimits::idle_lock_s,
-                                   .range = kIdleTimes,
+                                   .range = kIdleTimeRange,
                                    .unit = "s",
                                    .meaning = "the crane locks after this time in HOLD without a move"},
     fields::Field<OperatingLimits>{.key = "model_checks",

@@ -3,8 +3,8 @@
 /// the coordinates of the axes. Supervisor and planner call path_to() with the same data.
 /// docs/zones.md#paths-around-zones describes the search and proves its rules.
 ///
-/// The clearance of a position is the distance between a load that rests there (resting_reach) and the
-/// closest zone. A position is free when its clearance is at least kPassGap_m.
+/// The clearance of a position is the distance between a load that rests there (resting_space) and the
+/// closest zone. A position is free when its clearance is at least kPassClearance_m.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,16 +36,16 @@ struct PathSpace {
 enum class PathOutcome : std::uint8_t {
   straight,       ///< the straight leg to the target is free at the reference speeds; no waypoints
   by_waypoints,   ///< `points` lead to the target: around zones, or straight at reduced speed
-  target_inside,  ///< the clearance of the target from the first zone of `blocking` is below kRestGap_m
-  no_path         ///< the zones of `blocking` enclose the free space around the start
+  target_inside,  ///< the target is nearer than kRestClearance_m to the first zone of `blocking`
+  no_path         ///< no path was found; the zones of `blocking` bound the free space around the start
 };
 
 /// Least clearance of a target, and of the start and the end of a path, m. The noise of the zone filter at
 /// rest is smaller.
-inline constexpr double kRestGap_m = 0.02;
+inline constexpr double kRestClearance_m = 0.02;
 /// Least clearance of all legs but the first and the last, m. At the lowest speed of a leg, the zone filter
 /// does not stop the crane at this clearance.
-inline constexpr double kPassGap_m = 0.05;
+inline constexpr double kPassClearance_m = 0.05;
 /// Largest distance of start and target, m: longer than any move of a crane. It bounds the time of a search
 /// from a wrong position.
 inline constexpr double kLargestDistance_m = 1000;
@@ -64,7 +64,7 @@ struct Path {
 
 /// The path from `from` to `to`. Equal arguments give equal paths, bit for bit. The number of zones and the
 /// 8000 nodes of the grid bound time and memory. The search may miss a passage whose width beyond
-/// 2 kPassGap_m is below the spacing of the grid (4 cm over the ground; more on a large crane).
+/// 2 kPassClearance_m is below the spacing of the grid (4 cm over the ground; more on a large crane).
 /// @param from  measured trolley position m, slew angle rad, cable length m
 /// @param to    target in the same units, inside the limits of the axes
 /// @return no_path without `blocking` when a value is not finite or the distance exceeds kLargestDistance_m
@@ -82,7 +82,7 @@ struct ClosestZone {
 [[nodiscard]] ClosestZone closest_zone(const PathSpace& space, const plant::PerAxis& position) noexcept;
 
 /// Smallest clearance of the samples on the straight leg between two completed positions, m. A value below
-/// kRestGap_m + 1.5 mm is an upper bound: the first such sample ends the calculation.
+/// kRestClearance_m + 1.5 mm is an upper bound: the first such sample ends the calculation.
 [[nodiscard]] double straight_clearance_m(const PathSpace& space, const plant::PerAxis& from,
                                           const plant::PerAxis& to) noexcept;
 

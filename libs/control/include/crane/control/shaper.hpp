@@ -1,10 +1,10 @@
 #pragma once
-/// Input shapers convolve a reference with two or three impulses, whose swings cancel each other. The shares
+/// Input shapers convolve a reference with two or three impulses, whose swings cancel each other. The weights
 /// of the impulses add up to one. Swing feedback changes the frequency of the swing: with such a controller,
 /// the swing of the shaped motion must be a part of the reference (stick.hpp). Sources: Singer and Seering
 /// 1990; Singhose, Seering and Singer 1994. T: assumed load period. f: actual frequency of the swing.
 /// r = f T: ratio of actual to assumed frequency. V = 0.05. For an undamped load:
-///   name  shares                        times        residual swing / swing of the unshaped reference
+///   name  weights                       times        residual swing / swing of the unshaped reference
 ///   zv    1/2, 1/2                      0, T/2       |cos(pi r/2)|
 ///   zvd   1/4, 1/2, 1/4                 0, T/2, T    cos^2(pi r/2)
 ///   ei    (1+V)/4, (1-V)/2, (1+V)/4     0, T/2, T    |(1+V)/2 cos(pi r) + (1-V)/2|
@@ -21,7 +21,7 @@ enum class Shaping { none, zv, zvd, ei };
 
 struct Impulse {
   double time_s = 0;  ///< >= 0
-  double share = 1;   ///< share of the move, in (0, 1]; all shares add up to one
+  double weight = 1;  ///< share of the move, in (0, 1]; the weights of all impulses add up to one
 };
 
 /// Impulses in the order of time; the first is at 0. A default-constructed Shaper returns its input.
@@ -45,9 +45,9 @@ class Shaper {
     AxisReference sum = first;  // adding differences keeps a constant profile exact to the last bit
     for (std::size_t i = 1; i < count_; ++i) {
       const AxisReference late = profile.at(time_s - impulses_[i].time_s);
-      sum.position += impulses_[i].share * (late.position - first.position);
-      sum.speed += impulses_[i].share * (late.speed - first.speed);
-      sum.acceleration += impulses_[i].share * (late.acceleration - first.acceleration);
+      sum.position += impulses_[i].weight * (late.position - first.position);
+      sum.speed += impulses_[i].weight * (late.speed - first.speed);
+      sum.acceleration += impulses_[i].weight * (late.acceleration - first.acceleration);
     }
     return sum;
   }

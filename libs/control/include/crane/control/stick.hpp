@@ -92,11 +92,11 @@ struct StickAxis {
 
 /// Weights w_i and delays t_i of the shaper, in whole ticks.
 struct ShaperImpulses {
-  struct Share {
+  struct Impulse {
     std::size_t ticks = 0;
     double weight = 1;
   };
-  std::array<Share, 3> share{};
+  std::array<Impulse, 3> impulse{};
   std::size_t count = 1;
   double mean_s = 0;          ///< mean delay
   double largest_weight = 1;  ///< largest weight
@@ -111,7 +111,7 @@ struct StickPoint {
 struct StickMemory {
   std::array<StickAxis, kAxes> axis{};
   std::array<StickAxisLimits, kAxes> limits{};  ///< of s and u
-  ShaperImpulses shares;                        ///< of trolley and slew
+  ShaperImpulses impulses;                      ///< of trolley and slew
   double frequency_radps = 0;                   ///< w
   std::array<StickPoint, 4> path{};             ///< newest first
   int rest_ticks = 0;                           ///< ticks for which s has been at rest; at most path.size()

@@ -138,20 +138,21 @@ struct ReachedSpace {
   double lowest_m = 0;  ///< height above the ground
 };
 
-/// Distance between `reach` and `zone`, m; <= 0: they touch or overlap. The larger of two distances:
-/// horizontal, from the outline of the zone to the axis of the reach, minus the radius of the reach;
-/// vertical, between the nearer ends of both.
-[[nodiscard]] double clearance_m(const Zone& zone, const ReachedSpace& reach,
+/// Distance between a zone and a reached space, m; <= 0: they touch or overlap. It is the larger of
+/// - the horizontal distance from the outline of the zone to the centre line of the space, minus the radius
+///   of the space;
+/// - the vertical distance between the nearer ends.
+[[nodiscard]] double clearance_m(const Zone& zone, const ReachedSpace& space,
                                  double suspension_height_m) noexcept;
 
 /// Space of a load that hangs at rest below this suspension point. Its radius contains the deflection by a
 /// gust, 2 f L / g, with f = wind_mps2 and L = (1 + cable_error) cable_m. @param gravity_mps2  > 0
-[[nodiscard]] ReachedSpace resting_reach(const Clearance& clearance, double gravity_mps2, double trolley_m,
+[[nodiscard]] ReachedSpace resting_space(const Clearance& clearance, double gravity_mps2, double trolley_m,
                                          double slew_rad, double cable_m) noexcept;
 
 /// @return the first zone whose clearance from the straight path of a move is below `least_clearance_m`;
-/// nullptr: none. The path is straight in the coordinates of the axes. A move that begins below this
-/// clearance may increase it, and must not reduce it.
+/// nullptr: none. The path is straight in the coordinates of the axes. A path that begins below this
+/// clearance is permitted while its clearance does not decrease.
 /// @param from, to  trolley m, slew rad, cable m
 [[nodiscard]] const Zone* zone_in_path(std::span<const Zone> zones, const Clearance& clearance,
                                        double gravity_mps2, const plant::PerAxis& from,

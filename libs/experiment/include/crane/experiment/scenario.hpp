@@ -64,6 +64,6 @@ struct Scenario {
                                       const configuration::Rig* rig = nullptr);
 
 /// @return the rig with start positions, swing and true load of the scenario
-[[nodiscard]] configuration::Rig started_by(configuration::Rig rig, const Scenario& scenario);
+[[nodiscard]] configuration::Rig with_start_of(configuration::Rig rig, const Scenario& scenario);
 
 }  // namespace crane::experiment

@@ -12,7 +12,7 @@ namespace crane::experiment {
 struct Variant {
   std::string_view name;
   std::string_view summary;
-  void (*change)(configuration::Rig& started);  ///< changes the result of started_by()
+  void (*change)(configuration::Rig& rig_at_start);  ///< changes the result of with_start_of()
 };
 
 /// All variants: first the variants of a comparison, then the variants of single figures.

@@ -4,8 +4,8 @@
 
 namespace crane::files {
 
-/// A new directory among the temporary files, which only this user can read; deleted with this object. Its
-/// name cannot be foreseen: no other user can put a link in the place of its files.
+/// A new temporary directory that only this user can read. Its name is unpredictable: no other user can
+/// prepare links at the paths of its files. The destructor deletes the directory.
 class TemporaryDirectory {
  public:
   /// @param name  begin of the name: "crane_replay" @throws WriteError

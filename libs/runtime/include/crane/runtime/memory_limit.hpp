@@ -14,6 +14,6 @@ inline constexpr std::size_t kMostGrowth_bytes = std::size_t{512} << 20U;
 /// discovers it: without a limit, a program without keys could fill the memory of the computer while the
 /// crane holds its position with open brakes.
 /// @throws std::system_error
-void end_when_growing();
+void limit_memory_growth();
 
 }  // namespace crane::runtime

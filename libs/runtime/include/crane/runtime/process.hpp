@@ -69,19 +69,19 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 
 /// Time for which a process searches for another writer before its first sample. Discovery across vendors can
 /// take longer; therefore the readers also check for a second writer at every tick (writer_binding.hpp).
-inline constexpr std::chrono::milliseconds kSoleWriterLook{400};
+inline constexpr std::chrono::milliseconds kWriterSearchTime{400};
 /// The same for a process with all components of the loop. It stops another stack with its first samples, and
 /// discovery across vendors takes up to 1 s.
-inline constexpr std::chrono::milliseconds kSoleLoopLook{1200};
+inline constexpr std::chrono::milliseconds kLoopWriterSearchTime{1200};
 
 /// @throws bus::Error that names both versions when a program of this crane has messages of another version
 void refuse_other_version(bus::Bus& bus);
 
 /// Searches for other writers of the loop topics in `writes`, and for programs with another version of the
-/// messages, for the time `look`. @throws bus::Error that names the writer (program, process id, host) and
+/// messages, for the time `search_time`. @throws bus::Error that names the writer (program, process id, host) and
 /// the remedy when one exists
 void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes,
-                          std::chrono::milliseconds look = kSoleWriterLook);
+                          std::chrono::milliseconds search_time = kWriterSearchTime);
 
 /// main() of every process of the stack. @return exit code
 int run_process(int argc, char** argv, const ComponentSpec& spec);

@@ -31,11 +31,11 @@ class RecentTicks {
   }
 
  private:
-  struct Known {
+  struct LocalTick {
     std::uint64_t tick;
     std::int64_t sample_time_ns, now_ns;
   };
-  std::vector<std::optional<Known>> ring_;
+  std::vector<std::optional<LocalTick>> ring_;
 };
 
 }  // namespace crane::runtime

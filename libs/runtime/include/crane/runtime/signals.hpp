@@ -12,6 +12,6 @@ void install_stop_signals();
 /// Requests that the kernel sends SIGTERM to this process when the process `parent` ends. Call after exec:
 /// exec clears an earlier request when the program has file capabilities.
 /// @throws std::system_error; std::runtime_error when `parent` has ended already
-void die_with(int parent);
+void end_with_parent(int parent);
 
 }  // namespace crane::runtime

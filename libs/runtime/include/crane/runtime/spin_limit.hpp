@@ -13,6 +13,6 @@ inline constexpr std::chrono::milliseconds kLongestSpin{500};
 /// a thread starves all processes of lower priority, including the supervisor and the operator's shell. When
 /// the process has ended, its silence stops the crane. Has no effect on threads with ordinary scheduling.
 /// @throws std::system_error
-void end_when_spinning();
+void limit_spin_time();
 
 }  // namespace crane::runtime

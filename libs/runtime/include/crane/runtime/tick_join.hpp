@@ -16,9 +16,9 @@ namespace crane::runtime {
 
 struct JoinPolicy {
   bool in_order = true;  ///< true: lockstep; false: real time
-  /// Real time: longest wait for the other inputs after the poll() that opens the tick. A poll() that is late
-  /// by half this time extends the wait once, by half this time. 0: the second poll() finishes the tick
-  /// without its missing inputs.
+  /// Real time: longest wait for the other inputs after the poll() that opens the tick. The first poll()
+  /// that comes at least bound_ns / 2 after the end of the wait extends the wait by bound_ns / 2 from then
+  /// on. 0: the second poll() finishes the tick without its missing inputs.
   std::int64_t bound_ns = 0;
   std::size_t depth = 8;       ///< ticks that an input may be ahead of the slowest input
   std::int64_t period_ns = 0;  ///< real time: period of the ticks, for the check of tick numbers; 0: no check
@@ -162,15 +162,15 @@ class TickJoin {
     tick_ = first_useful_ = *candidate;
     started_ = opened_ = true;
     due_ns_ = now_ns + policy_.bound_ns;
-    has_respite_ = false;
+    wait_extended_ = false;
     return true;
   }
   /// After a late wake-up, samples may have arrived that are not yet delivered: extends the wait by half the
   /// bound, once per tick.
   bool woke_late(std::int64_t now_ns) {
-    if (has_respite_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;
+    if (wait_extended_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;
     due_ns_ = now_ns + policy_.bound_ns / 2;
-    return has_respite_ = true;
+    return wait_extended_ = true;
   }
   [[nodiscard]] std::optional<std::uint64_t> next_in_order() const {
     const auto& leader = std::get<0>(inputs_);
@@ -196,7 +196,7 @@ class TickJoin {
   std::uint64_t tick_ = 0;
   std::uint64_t first_useful_ = 0;  ///< all earlier ticks are finished
   std::int64_t due_ns_ = 0;         ///< end of the wait for the other inputs of the open tick
-  bool has_respite_ = false;        ///< true: the wait of the open tick has been extended
+  bool wait_extended_ = false;      ///< true: the wait of the open tick has been extended
   bool started_ = false, opened_ = false;
 };
 

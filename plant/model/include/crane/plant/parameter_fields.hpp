@@ -7,7 +7,7 @@
 namespace crane::plant {
 
 /// Swing angles, rad. The equations divide by cos(swing), which is 0.07 at 1.5 rad.
-inline constexpr fields::Range kSwings = fields::Range::closed(-1.5, 1.5);
+inline constexpr fields::Range kSwingAngles = fields::Range::closed(-1.5, 1.5);
 /// Positions, m or rad. The jib of a tower crane is shorter than 100 m.
 inline constexpr fields::Range kPositions = fields::Range::closed(-1000, 1000);
 /// Cable lengths, m. The equations divide by the length.

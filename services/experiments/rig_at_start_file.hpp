@@ -7,10 +7,10 @@
 namespace crane::experiments {
 
 /// Every field of the rig as TOML, below a comment with the origin.
-[[nodiscard]] std::string started_rig_text(const configuration::Rig& started);
+[[nodiscard]] std::string rig_at_start_text(const configuration::Rig& rig_at_start);
 
 /// Writes every field of the rig: a process that reads the file runs the same rig, bit for bit, with every
 /// change by a scenario and by variants. @throws files::WriteError
-void write_started_rig(const std::filesystem::path& file, const configuration::Rig& started);
+void write_rig_at_start(const std::filesystem::path& file, const configuration::Rig& rig_at_start);
 
 }  // namespace crane::experiments

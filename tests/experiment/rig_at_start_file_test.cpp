@@ -1,4 +1,4 @@
-#include "experiments/started_rig_file.hpp"
+#include "experiments/rig_at_start_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +19,9 @@ TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
   scenario.swing_radial_rad = 0.05;
   scenario.load_mass_kg = 3;
   scenario.cable_length_offset_m = 0.2;
-  const auto started = experiment::changed_by(experiment::started_by(rig, scenario), GetParam());
+  const auto started = experiment::changed_by(experiment::with_start_of(rig, scenario), GetParam());
   const auto file = std::filesystem::path{testing::TempDir()} / ("started_" + GetParam() + ".toml");
-  write_started_rig(file, started);
+  write_rig_at_start(file, started);
   auto read = configuration::load_rig(file);
   std::filesystem::remove(file);
   read.path = started.path;
