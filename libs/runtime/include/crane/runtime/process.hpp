@@ -78,8 +78,8 @@ inline constexpr std::chrono::milliseconds kLoopWriterSearchTime{1200};
 void refuse_other_version(bus::Bus& bus);
 
 /// Searches for other writers of the loop topics in `writes`, and for programs with another version of the
-/// messages, for the time `search_time`. @throws bus::Error that names the writer (program, process id, host) and
-/// the remedy when one exists
+/// messages, for the time `search_time`. @throws bus::Error that names the writer (program, process id, host)
+/// and the remedy when one exists
 void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes,
                           std::chrono::milliseconds search_time = kWriterSearchTime);
 
