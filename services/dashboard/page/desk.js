@@ -2,6 +2,7 @@
 import { REQUESTS, element } from "./words.js";
 
 const RENEW_MS = 3000;
+const LONGEST_ANSWER_MS = 5000; // the server waits for the supervisor's answer for less than 3 s
 
 export class Desk extends EventTarget {
   about = { may_operate: false, may_stop: false, why_not: "" };
@@ -28,17 +29,17 @@ export class Desk extends EventTarget {
 
   get mine() { return this.#key !== ""; }
 
-  #post(path, body = {}) { return this.#send(path, "application/json", JSON.stringify(body)); }
+  #post(path, body = {}) { return this.#send(path, "application/json", JSON.stringify(body), AbortSignal.timeout(LONGEST_ANSWER_MS)); }
   /** With the operator's token, without the controls. @returns the answer, with `ok`, `status` and perhaps `error` */
   post(path, body) { return this.#post(path, body); }
   upload(path, file) { return this.#send(path, "application/octet-stream", file); }
 
-  async #send(path, type, body) {
+  async #send(path, type, body, signal) {
     const headers = { "Content-Type": type, "X-Crane-Seat": this.#key };
     if (this.#token) headers.Authorization = "Bearer " + this.#token;
     if (this.seen) headers["X-Crane-Seen"] = this.seen; // a request that arrives late is refused
     try {
-      const answer = await fetch(path, { method: "POST", headers, body });
+      const answer = await fetch(path, { method: "POST", headers, body, signal });
       return { ok: answer.ok, status: answer.status, ...(await answer.json()) };
     } catch {
       return { ok: false, status: 0, error: "the dashboard does not answer" };

@@ -4,7 +4,7 @@ import { Decoder, parseIdl } from "./cdr.js";
 
 const RETRY_MS = [200, 500, 1000, 2000];
 // The server sends a frame every 16 ms. A server that hangs or a cut link closes no socket.
-const LONGEST_SILENCE_MS = 1000, LOOK_MS = 200;
+const LONGEST_SILENCE_MS = 1000, LOOK_MS = 200, REPLACE_MS = 5000;
 
 export class Link extends EventTarget {
   #socket = null;
@@ -13,6 +13,7 @@ export class Link extends EventTarget {
   #channels = new Map(); // topic -> channel
   #idl = null;
   #heard_ms = 0; // time of the newest frame
+  #connected_ms = 0; // time at which the present connection was requested
   decoders = new Map(); // topic -> Decoder
   state = "connecting"; // "live", "lost"
   ready = new Promise((known) => { this.known = known; }); // the channels are known
@@ -22,7 +23,7 @@ export class Link extends EventTarget {
     super();
     this.url = url;
     this.#connect();
-    setInterval(() => { if (performance.now() - this.#heard_ms > LONGEST_SILENCE_MS && this.state === "live") this.#change("lost"); }, LOOK_MS);
+    setInterval(() => this.#look(), LOOK_MS);
   }
 
   get topics() { return [...this.#channels.values()].filter((c) => c.encoding === "cdr").map((c) => c.topic.slice(1)); }
@@ -45,6 +46,7 @@ export class Link extends EventTarget {
   }
 
   #connect() {
+    this.#connected_ms = performance.now();
     this.#socket = new WebSocket(this.url, "crane.batch.v1");
     this.#socket.binaryType = "arraybuffer";
     this.#socket.onopen = () => { this.#attempt = 0; };
@@ -54,6 +56,17 @@ export class Link extends EventTarget {
       this.#change("lost");
       setTimeout(() => this.#connect(), RETRY_MS[Math.min(this.#attempt++, RETRY_MS.length - 1)]);
     };
+  }
+
+  #look() {
+    const silence_ms = performance.now() - Math.max(this.#heard_ms, this.#connected_ms);
+    if (silence_ms > LONGEST_SILENCE_MS && this.state === "live") this.#change("lost");
+    if (silence_ms < REPLACE_MS || this.state !== "lost" || this.#socket.readyState !== WebSocket.OPEN) return;
+    // After a cut of the network, the server has given up this connection, and no message says so.
+    this.#socket.onmessage = this.#socket.onclose = null;
+    this.#socket.close();
+    this.#channels = new Map();
+    this.#connect();
   }
 
   #change(state) {

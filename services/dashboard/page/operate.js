@@ -7,6 +7,7 @@ import { SwingPlot } from "./swing_plot.js";
 import { AXES, STATES, element, fixed, meaningOf, plain } from "./words.js";
 
 const TRAIL_S = 10;
+const STALE_MS = 1000, LOOK_MS = 200; // crane/state arrives every tick: after this time without one, the values are unknown
 const LEGEND = [["measured", "", "Load, measured"], ["target", "dashed", "Target and planned path"], ["reference", "dashed", "Aim, not sent"], ["crane", "", "Crane"]];
 const find = (id) => document.getElementById(id);
 
@@ -15,6 +16,7 @@ export class OperateView {
   #pose = null;
   #drawn = true; // false: there is something new to draw
   #newNumbers = false;
+  #heard_ms = -Infinity; // arrival of the newest crane/state
   #trail = [];
   #shown = new Map(); // id -> text
 
@@ -41,11 +43,15 @@ export class OperateView {
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
+    setInterval(() => { this.#newNumbers ||= this.#stale; }, LOOK_MS);
     document.addEventListener("themechange", () => { this.scene.repaint(); this.#drawn = false; });
     window.addEventListener("resize", () => { this.#drawn = this.#pose === null; });
   }
 
+  get #stale() { return performance.now() - this.#heard_ms > STALE_MS; }
+
   #takeState(sample) {
+    this.#heard_ms = performance.now();
     const pose = { x: sample.get("trolley_position_m"), slew: sample.get("slew_angle_rad"), cable: sample.get("cable_length_m"), radial: sample.get("swing_radial_rad"), tangential: sample.get("swing_tangential_rad") };
     this.state = sample;
     this.#pose = pose;
@@ -85,7 +91,8 @@ export class OperateView {
   #drawNumbers() {
     this.#newNumbers = false;
     if (find("view-operate").hidden) return;
-    const shown = this.#shown;
+    const shown = this.#shown, stale = this.#stale;
+    find("view-operate").classList.toggle("stale", stale);
     const put = (id, value, unit) => {
       if (shown.get(id) === value) return;
       shown.set(id, value);
@@ -95,6 +102,15 @@ export class OperateView {
       if (shown.get(id) !== text) find(id).textContent = text;
       shown.set(id, text);
     };
+    if (stale) {
+      for (const { key, unit } of AXES) {
+        put("hud-" + key, "—", unit);
+        for (const name of ["volts-", "speed-"]) write(name + key, "—");
+        write("brake-" + key, "brake unknown");
+      }
+      put("hud-swing", "—", "°");
+      return;
+    }
     AXES.forEach((axis, i) => {
       put("hud-" + axis.key, fixed(this.state.get(axis.state) * axis.factor, axis.digits), axis.unit);
       write("volts-" + axis.key, fixed(this.state.get(`applied_v[${i}]`), 2) + " V");

@@ -196,7 +196,7 @@ test("while the dashboard hangs, the page says that its values are old and offer
   await show("operate");
   assert.ok(await page.isDisabled("#ask-arm") && await page.isDisabled("#ask-home"));
   dashboard.child.kill("SIGCONT");
-  await until("live again", async () => !(await page.isVisible("#lost")));
+  await until("live again", async () => !(await page.isVisible("#lost")) && (await page.locator("#link-state[data-state=live]").count()) === 1);
 });
 
 test("after a lost dashboard the page says so, and connects again by itself", async () => {
@@ -274,3 +274,12 @@ test("an uploaded run is diagnosed, with its verdict and report", async () => {
 });
 
 test("no browser complained", () => assert.deepEqual(complaints, []));
+
+test("without a crane the page shows no values of the past", async () => {
+  await show("operate");
+  await end(stack);
+  await until("the brake is unknown", async () => /brake unknown/.test(await page.textContent("#brake-trolley")));
+  assert.equal(await page.textContent("#speed-trolley"), "—");
+  assert.match(await page.textContent("#hud-trolley"), /—/);
+  assert.ok(await page.isDisabled("#ask-arm"));
+});
