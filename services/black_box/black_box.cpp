@@ -1,5 +1,6 @@
 #include "black_box/black_box.hpp"
 
+#include <sys/stat.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -77,16 +78,29 @@ class Writer {
   std::jthread thread_;  ///< a new thread waits for the end of the previous one
 };
 
+/// Directory of this user beside those of others: a program without HOME and XDG_STATE_HOME uses it.
+std::filesystem::path shared_base() {
+  return std::filesystem::temp_directory_path() / ("crane_" + std::to_string(::geteuid()));
+}
+
+/// True if the directory is in shared_base(), and another user has created shared_base() or made it a link:
+/// the black box would delete the files in a directory of this user's choice.
+bool planted(const std::filesystem::path& directory) {
+  const auto base = shared_base();
+  struct stat found {};
+  return directory.parent_path() == base && ::lstat(base.c_str(), &found) == 0 &&
+         (!S_ISDIR(found.st_mode) || found.st_uid != ::geteuid());
+}
+
 }  // namespace
 
 std::filesystem::path default_directory() {
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");
-  const std::filesystem::path base = state != nullptr && *state != 0 ? std::filesystem::path{state}
-                                     : home != nullptr && *home != 0
-                                         ? std::filesystem::path{home} / ".local/state"
-                                         : std::filesystem::temp_directory_path();
-  return base / "crane" / "black_box";
+  if (state != nullptr && *state != 0) return std::filesystem::path{state} / "crane" / "black_box";
+  if (home != nullptr && *home != 0)
+    return std::filesystem::path{home} / ".local/state" / "crane" / "black_box";
+  return shared_base() / "black_box";
 }
 
 Options default_options() {
@@ -109,8 +123,16 @@ void add_options(CLI::App& app, Options& options) {
 int run(const Options& options) {
   runtime::install_stop_signals();
   if (options.parent != 0) runtime::end_with_parent(options.parent);
+  const auto check_owner = [&options] {
+    if (planted(options.directory))
+      throw configuration::ConfigurationError(
+          {"directory of the black box = " + options.directory.string() + ": " + shared_base().string() +
+           " must be a directory of this user; set HOME, crane black-box --out or crane up --black-box"});
+  };
+  check_owner();
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
+  check_owner();
   if (error || ::access(options.directory.c_str(), W_OK) != 0)
     throw configuration::ConfigurationError(
         {"directory of the black box = " + options.directory.string() +

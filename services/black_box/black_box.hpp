@@ -15,7 +15,8 @@ struct Options {
   std::size_t files = 64;  ///< number of files that are kept; a file has about 1 MB
   runtime::BusOptions bus;
 };
-/// $XDG_STATE_HOME/crane/black_box, or ~/.local/state/crane/black_box
+/// $XDG_STATE_HOME/crane/black_box, or ~/.local/state/crane/black_box; without both variables, a directory of
+/// this user in the temporary directory
 [[nodiscard]] std::filesystem::path default_directory();
 [[nodiscard]] Options default_options();
 void add_options(CLI::App& app, Options& options);
