@@ -121,7 +121,7 @@ TEST(FaultTimeline, KeepsTheDataFromTenSecondsBeforeToFiveAfter) {
   timeline.poll(24 * kSecond_ns, 24 * kSecond_ns, traffic, history);
   EXPECT_TRUE(timeline.faults()[0].surrounding_samples.empty());
   timeline.poll(25 * kSecond_ns, 25 * kSecond_ns, traffic, history);
-  const auto& samples = timeline.find(1)->moment.at(0);
+  const auto& samples = timeline.find(1)->surrounding_samples.at(0);
   ASSERT_EQ(samples.size(), 16U);
   EXPECT_EQ(samples.front()->log_time_ns, 10 * kSecond_ns);
   EXPECT_EQ(samples.back()->log_time_ns, 25 * kSecond_ns);
