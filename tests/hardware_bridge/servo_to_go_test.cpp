@@ -205,7 +205,7 @@ struct RemovableCard final : PortIo {
 };
 
 TEST(ServoToGo, ThatLosesItsPowerIsNamedAtTheNextReadingAtTheLatest) {
-  for (const std::uint8_t level : {0x00, 0xFF})
+  for (const std::uint8_t level : {std::uint8_t{0x00}, std::uint8_t{0xFF}})
     for (int readings = 0; readings < 9; ++readings) {
       Plug plug;
       CardState state;
