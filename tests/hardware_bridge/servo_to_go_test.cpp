@@ -78,7 +78,8 @@ TEST_F(Card, ReadsEveryCounterAfterLatchingItsPair) {
   EXPECT_EQ(log_[0], (Access{'W', 0x202, 0x0303}));
   EXPECT_EQ(log_[1], (Access{'W', 0x206, 0x0303}));
   EXPECT_EQ(log_[2], (Access{'W', 0x20A, 0x0303}));
-  EXPECT_EQ(log_.size(), 3U + 2U + 5U * 3U);
+  EXPECT_EQ(log_.size(), 3U + 2U + 5U * 3U + 1U);
+  EXPECT_EQ(log_.back(), (Access{'r', 0x603, 0})) << "the board test";
 }
 
 /// The encoders move by one edge per port access, much faster than any drive.
