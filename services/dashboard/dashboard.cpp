@@ -94,7 +94,12 @@ int run(const Options& options) {
                     .other_origins = options.other_origins,
                     .read_only = options.read_only};
   About about{.version = CRANE_VERSION, .crane = options.bus.crane, .domain = options.bus.domain, .rig = ""};
-  if (!options.rig.empty()) about.rig = rig_text(configuration::load_rig(stack::find_rig(options.rig)));
+  if (!options.rig.empty()) {
+    const auto rig = configuration::load_rig(stack::find_rig(options.rig));
+    about.rig = rig_text(rig);
+    for (std::size_t i = 0; i < about.reference_acceleration.size(); ++i)
+      about.reference_acceleration[i] = rig.drives[i].reference_acceleration;
+  }
 
   const auto source = options.read_only ? crane_SOURCE_MONITOR : crane_SOURCE_OPERATOR;
   bus::Bus bus{runtime::bus_options(options.bus, "crane_dashboard", source, runtime::random_epoch())};

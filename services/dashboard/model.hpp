@@ -19,6 +19,8 @@ struct About {
   std::string version, crane;
   std::uint32_t domain = 0;
   std::string rig;  ///< JSON text of the rig's geometry; empty: unknown
+  /// Of the planner, by axis, m/s² or rad/s²; 0: unknown.
+  std::array<double, 3> reference_acceleration{};
 };
 
 class Model {

@@ -15,14 +15,15 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<const char*, crane_RequestKind>, 8> kKinds{{{"reset", crane_REQUEST_RESET},
+constexpr std::array<std::pair<const char*, crane_RequestKind>, 9> kKinds{{{"reset", crane_REQUEST_RESET},
                                                                            {"arm", crane_REQUEST_ARM},
                                                                            {"disarm", crane_REQUEST_DISARM},
                                                                            {"stop", crane_REQUEST_STOP},
                                                                            {"estop", crane_REQUEST_ESTOP},
                                                                            {"home", crane_REQUEST_HOME},
                                                                            {"mode", crane_REQUEST_MODE},
-                                                                           {"move", crane_REQUEST_MOVE}}};
+                                                                           {"move", crane_REQUEST_MOVE},
+                                                                           {"hold", crane_REQUEST_MOVE}}};
 constexpr std::array<const char*, plant::kAxes> kTargets{"trolley_m", "slew_rad", "hoist_m"};
 
 void refuse_unknown(const json& body, const std::vector<std::string>& known) {
@@ -94,9 +95,9 @@ stack::OperatorRequest operator_request_of(std::string_view text) {
                                              [](const auto& k) { return std::string{k.first}; })
                          : kKinds.end();
   if (found == kKinds.end())
-    throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home, mode or move");
+    throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home, mode, move or hold");
   stack::OperatorRequest wanted{.kind = found->second};
-  if (wanted.kind == crane_REQUEST_MOVE)
+  if (wanted.kind == crane_REQUEST_MOVE && *kind == "move")
     read_move(body, wanted);
   else if (wanted.kind == crane_REQUEST_HOME)
     read_home(body, wanted);

@@ -14,7 +14,8 @@ class BadRequest : public std::runtime_error {
 };
 
 /// {"kind": "reset" (with "confirm_positions"), "arm", "disarm", "stop", "estop", "home" (with "axis"),
-/// "mode" (with "mode") or "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
+/// "mode" (with "mode"), "move" (with "trolley_m", "slew_rad", "hoist_m") or "hold", a move without axes
+/// (hold.hpp)}. @throws BadRequest
 [[nodiscard]] stack::OperatorRequest operator_request_of(std::string_view body);
 
 }  // namespace crane::dashboard

@@ -89,8 +89,7 @@ ordered_json Situation::json(std::int64_t now_ns) const {
         {"remedy",
          "no sample of the supervisor arrives: start a stack with `crane up`, or check --crane, --domain, "
          "--interface and --secure of the dashboard"}};
-  const bool state_fresh = state_ && now_ns - state_ns_ <= observation::kStale_ns;
-  const auto* state = state_fresh ? &*state_ : nullptr;
+  const auto* state = state_within(observation::kStale_ns, now_ns);
   const auto cause = static_cast<supervisor::Cause>(supervisor_->cause);
   ordered_json result{{"heard", true},
                       {"state", supervisor::name_of(static_cast<supervisor::State>(supervisor_->state))},

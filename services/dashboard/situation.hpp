@@ -24,6 +24,11 @@ class Situation {
     return supervisor_ && now_ns - supervisor_ns_ <= observation::kStale_ns;
   }
 
+  /// @return crane/state that has arrived within `age_ns`; nullptr: none
+  [[nodiscard]] const msg::State* state_within(std::int64_t age_ns, std::int64_t now_ns) const {
+    return state_ && now_ns - state_ns_ <= age_ns ? &*state_ : nullptr;
+  }
+
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
   [[nodiscard]] const std::optional<msg::State>& state() const { return state_; }
 

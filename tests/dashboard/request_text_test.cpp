@@ -5,6 +5,7 @@
 #include <random>
 
 #include "crane/runtime/request_kinds.hpp"
+#include "dashboard/hold.hpp"
 
 namespace crane::dashboard {
 namespace {
@@ -14,6 +15,40 @@ TEST(RequestText, AMoveNamesTheAxesThatItMoves) {
   EXPECT_EQ(wanted.kind, crane_REQUEST_MOVE);
   EXPECT_EQ(wanted.selected, (std::array{true, true, false}));
   EXPECT_EQ(wanted.target, (std::array{1.05, -0.5, 0.0}));
+}
+
+TEST(RequestText, AHoldIsAMoveWithoutAxes) {
+  EXPECT_TRUE(is_hold(operator_request_of(R"({"kind":"hold"})")));
+  EXPECT_FALSE(is_hold(operator_request_of(R"({"kind":"move","slew_rad":0})")));
+  EXPECT_THROW((void)operator_request_of(R"({"kind":"hold","slew_rad":0})"), BadRequest);
+}
+
+/// The slew axis moves at 0.5 rad/s; the anti-swing control moves the trolley a little.
+TEST(Hold, EndsTheMoveOfItsAxesAtTheirPointOfRestAndMovesNoOther) {
+  msg::State state{};
+  state.trolley_position_m = 0.4;
+  state.trolley_speed_mps = 0.1;
+  state.slew_angle_rad = -1;
+  state.slew_speed_radps = -0.5;
+  msg::SupervisorStatus status{};
+  for (double& limit_v : status.volt_limit_v) limit_v = 10;
+  status.move.number = 3;
+  status.move.selected[1] = true;
+  const auto hold = move_to_rest(state, status, {0.2, 0.25, 0});
+  EXPECT_EQ(hold.kind, crane_REQUEST_MOVE);
+  EXPECT_EQ(hold.selected, (std::array{false, true, false}));
+  EXPECT_DOUBLE_EQ(hold.target[1], -1.5);
+}
+
+TEST(Hold, WithoutAMoveHoldsAllAxesOfTheCrane) {
+  msg::State state{};
+  state.trolley_position_m = 0.4;
+  state.trolley_speed_mps = 0.1;
+  msg::SupervisorStatus status{};
+  status.volt_limit_v[0] = 10;
+  const auto hold = move_to_rest(state, status, {});
+  EXPECT_EQ(hold.selected, (std::array{true, false, false}));
+  EXPECT_DOUBLE_EQ(hold.target[0], 0.4) << "without an acceleration, the position now";
 }
 
 TEST(RequestText, HomeAndResetHaveTheirFields) {

@@ -76,6 +76,21 @@ TEST_F(ServerTest, ARequestThatNamesNoTickOfTheLast2sIsRefused) {
   EXPECT_EQ(requests_, 1);
 }
 
+TEST_F(ServerTest, AHoldIsComputedFromAStateOfTheLast100ms) {
+  const auto seat =
+      json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
+  const auto hold = [&](std::int64_t age_ns) {
+    msg::State state{};
+    server_.put({observation::sample_of(topics::state, state, runtime::monotonic_ns() - age_ns, 8)});
+    hear_tick(8);
+    return json::parse(post("/api/request", {{"kind", "hold"}}, seat).body());
+  };
+  EXPECT_NE(hold(kSecond_ns)["reason"].get<std::string>().find("0.1 s"), std::string::npos);
+  EXPECT_EQ(requests_, 0);
+  EXPECT_TRUE(hold(0)["accepted"].get<bool>());
+  EXPECT_EQ(requests_, 1);
+}
+
 TEST_F(ServerTest, AForeignPageCannotOperate) {
   http::request<http::string_body> request{http::verb::post, "/api/request", 11, R"({"kind":"estop"})"};
   request.set(http::field::content_type, "application/json");

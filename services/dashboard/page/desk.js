@@ -172,7 +172,7 @@ export function drawRequests(desk, into) {
   for (const kind of Object.keys(KINDS)) {
     const answer = desk.answerTo(kind === "hold" ? "move" : kind);
     const button = into.querySelector("#ask-" + kind);
-    const free = URGENT.has(kind) || !desk.waiting.has(kind === "hold" ? "move" : kind);
+    const free = URGENT.has(kind) || !desk.waiting.has(kind);
     button.disabled = !(answer.accepted && free && (kind === "stop" ? desk.about.may_stop : allowed));
     button.title = answer.accepted ? "" : answer.reason;
     button.className = !button.disabled && kind === next ? "primary" : "";

@@ -165,22 +165,10 @@ export class OperateView {
   }
 
   #ask(kind) {
-    if (kind === "hold") return this.desk.ask({ kind: "move", ...this.#whereItRests() });
     if (kind !== "home") return this.desk.ask({ kind });
     // The hoist first: a short cable swings less; the slew axis last (as `crane home`).
     const axes = this.desk.situation.axes, unknown = ["hoist", "trolley", "slew"].find((name) => axes.some((axis) => axis.name === name && axis.present && !axis.known));
     return unknown ? this.desk.ask({ kind: "home", axis: unknown }) : this.desk.say("the position of every axis is known: nothing to home", "good");
-  }
-
-  /** Where the axes rest when they brake now with the acceleration of the planner. */
-  #whereItRests() {
-    const rest = {};
-    AXES.forEach((axis, i) => {
-      if (!this.desk.situation.axes[i].present) return;
-      const speed = this.state.get(axis.speed), acceleration = this.#rig?.axes[i].reference_acceleration;
-      rest[axis.field] = this.state.get(axis.state) + (acceleration ? speed * Math.abs(speed) / (2 * acceleration) : 0);
-    });
-    return rest;
   }
 
   #drawDesk() {

@@ -19,7 +19,7 @@ export function meaningOf(idl, enumeration, name) {
   return text && text.charAt(0).toUpperCase() + text.slice(1) + (/[.)]$/.test(text) ? "" : ".");
 }
 
-export const REQUESTS = { reset: "Reset", arm: "Arm", disarm: "Disarm", home: "Home", mode: "Mode", move: "Move", stop: "Stop", estop: "Software stop" };
+export const REQUESTS = { reset: "Reset", arm: "Arm", disarm: "Disarm", home: "Home", mode: "Mode", move: "Move", hold: "Hold", stop: "Stop", estop: "Software stop" };
 
 const ON_PAGE = [ // of the driven coordinates, in their order
   { label: "Trolley", digits: 3, speed: "trolley_speed_mps" },
