@@ -80,7 +80,8 @@ class Writer {
 
 /// Directory of this user beside those of others: a program without HOME and XDG_STATE_HOME uses it.
 std::filesystem::path shared_base() {
-  return std::filesystem::temp_directory_path() / ("crane_" + std::to_string(::geteuid()));
+  std::error_code error;  // without a temporary directory, the base does not exist
+  return std::filesystem::temp_directory_path(error) / ("crane_" + std::to_string(::geteuid()));
 }
 
 /// True if the directory is in shared_base(), and another user has created shared_base() or made it a link:

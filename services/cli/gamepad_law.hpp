@@ -43,9 +43,9 @@ class GamepadLaw {
   /// 16-bit sticks return to within 4096 of 32768 counts of the centre, although their drivers report 128
   /// (Android, key layout of the controller 0e6f:f501).
   static constexpr double kDeadZone = 0.125;
-  /// Longest time without an event. A gamepad reports only changes: silence with a deflected stick means a
-  /// still hand or a broken radio link. The keyboard releases the stick after the same time without an arrow
-  /// or page key. The value is chosen, not derived.
+  /// Longest time without a movement of a button or selected stick. A gamepad reports only changes: silence
+  /// with a deflected stick means a still hand or a broken radio link. The keyboard releases the stick after
+  /// the same time without an arrow or page key. The value is chosen, not derived.
   static constexpr double kSilence_s = 10;
 
   /// @pre problem_of(ranges, selected) is empty
@@ -55,8 +55,8 @@ class GamepadLaw {
 
   /// True when deflection() acts: the dead-man's button was pressed after the start and is held; since this
   /// press, the sticks of all selected axes have been in their dead zones at the same time; no return is
-  /// requested; the last event is at most kSilence_s old. After a longer silence, the operator must release
-  /// the button and press it again.
+  /// requested; the last movement of a button or selected stick is at most kSilence_s old. After a longer
+  /// silence, the operator must release the button and press it again.
   [[nodiscard]] bool engaged(double now_s) const;
   /// Deflection of the selected axes, independent of engaged(): 0 in the dead zone, ±1 at the ends of the
   /// range, ±0.1 there in micro-speed.

@@ -214,10 +214,10 @@ void Api::request(const ApiRequest& request, AnswerHandler answer) {
                       ? "the header X-Crane-Seen is missing: state the newest status that has arrived (GET "
                         "/api/seen)"
                       : "the request names no status of the last 2 s (X-Crane-Seen): repeat the request"});
-    if (is_hold(wanted)) {
+    if (is_hold(wanted) && model_.situation().hears_supervisor(now_ns)) {
       const auto* state = model_.situation().state_within(kHoldAge_ns, now_ns);
-      if (state == nullptr || !model_.situation().hears_supervisor(now_ns))
-        return reply_with({false, "no crane/state has arrived within 0.1 s: request a stop instead"});
+      if (state == nullptr)
+        return reply_with({false, "no crane/state has arrived within 0.25 s: request a stop instead"});
       wanted = move_to_rest(*state, *model_.situation().supervisor(), model_.about().reference_acceleration);
     }
     wanted.newest_status = named.value_or(msg::Header{});

@@ -7,8 +7,9 @@
 
 namespace crane::dashboard {
 
-/// Largest age of the crane/state from which a hold is computed: an axis at 0.5 m/s moves by 5 cm.
-inline constexpr std::int64_t kHoldAge_ns = 100'000'000;
+/// Largest age of the crane/state from which a hold is computed: more than two periods of the slowest loop
+/// (0.1 s). An axis at 0.5 m/s moves by 0.13 m.
+inline constexpr std::int64_t kHoldAge_ns = 250'000'000;
 
 /// True for the request of which move_to_rest() makes a move.
 [[nodiscard]] bool is_hold(const stack::OperatorRequest& wanted);

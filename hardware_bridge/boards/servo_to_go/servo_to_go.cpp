@@ -72,16 +72,18 @@ int ServoToGo::recognised_model() const {
                    "): check the card, its address jumpers and base_address in [wiring] of the rig file");
 }
 
-/// The next reading contains the next index and its bit of the serial number. Without a card, all readings
-/// are the same.
-void ServoToGo::check_presence() {
-  const unsigned reading = ports_->in_8(at(kBoardTest)), index = (reading >> 4) & 7U;
+/// Two readings contain two successive indices and their bits of the serial number. Without a card, both are
+/// the same.
+void ServoToGo::check_presence() const {
   const unsigned serial = model_ == 1 ? kSerialModel1 : kSerialModel2;
-  const bool answers = index != test_index_ && (reading >> 7) == ((serial >> index) & 1U);
-  test_index_ = index;
-  if (answers) return;
+  const auto index_of = [](unsigned reading) { return (reading >> 4) & 7U; };
+  const auto has_its_bit = [&](unsigned reading) {
+    return (reading >> 7) == ((serial >> index_of(reading)) & 1U);
+  };
+  const unsigned first = ports_->in_8(at(kBoardTest)), second = ports_->in_8(at(kBoardTest));
+  if (has_its_bit(first) && has_its_bit(second) && index_of(second) == ((index_of(first) + 1) & 7U)) return;
   throw BoardError("the Servo-to-Go board at " + hex(base_) + " does not answer (board test reads " +
-                   hex(reading) + "): check that the card sits in its slot and has power");
+                   hex(second) + "): check that the card sits in its slot and has power");
 }
 
 /// A running timer would latch the counters while the driver reads their bytes.

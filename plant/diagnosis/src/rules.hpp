@@ -102,8 +102,9 @@ inline constexpr Rule kDriveError{
     "error of a drive in a window above which the window counts as not explained; the verdict is unknown if "
     "significantly many windows are not explained",
     "coverage factor 3 of a normal error: 0.27 % of the windows"};
-inline constexpr Rule kLeastSwingRms{
-    "swings", 0.01, "m or rad", "minimum rms of a motion to which not_followed applies", "read off examples"};
+inline constexpr Rule kLeastSwingRms{"least_swing_rms", 0.01, "m or rad",
+                                     "minimum rms of a motion to which not_followed applies",
+                                     "read off examples"};
 inline constexpr Rule kCredibleForce{
     "credible_force", 0.03, "1", "maximum rms of the disturbance of the load / its weight",
     "half a newton on two kilograms: wind and hands at a laboratory's crane"};

@@ -42,7 +42,7 @@ export class Desk extends EventTarget {
       const answer = await fetch(path, { method: "POST", headers, body, signal });
       return { ok: answer.ok, status: answer.status, ...(await answer.json()) };
     } catch {
-      return { ok: false, status: 0, error: "the dashboard does not answer" };
+      return { ok: false, status: 0, error: "the dashboard does not answer; the request may have been executed" };
     }
   }
 

@@ -61,7 +61,8 @@ export class Link extends EventTarget {
   #look() {
     const silence_ms = performance.now() - Math.max(this.#heard_ms, this.#connected_ms);
     if (silence_ms > LONGEST_SILENCE_MS && this.state === "live") this.#change("lost");
-    if (silence_ms < REPLACE_MS || this.state !== "lost" || this.#socket.readyState !== WebSocket.OPEN) return;
+    const pending = [WebSocket.CONNECTING, WebSocket.OPEN].includes(this.#socket.readyState);
+    if (silence_ms < REPLACE_MS || this.state !== "lost" || !pending) return;
     // After a cut of the network, the server has given up this connection, and no message says so.
     this.#socket.onmessage = this.#socket.onclose = null;
     this.#socket.close();

@@ -178,7 +178,7 @@ export class OperateView {
     const wanted = Object.keys(this.#wanted()).length > 0, moves = desk.answerTo("move");
     find("ask-move").disabled = !(wanted && desk.mine && moves.accepted);
     find("ask-move").title = !desk.mine ? "take the controls first" : moves.reason || (wanted ? "" : "enter a target, or click on the map");
-    find("mode").disabled = !desk.mine;
+    find("mode").disabled = !desk.mine || desk.lost;
     if (!situation) return;
     if (situation.mode && !desk.waiting.has("mode")) find("mode").value = situation.mode;
     this.#drawSituation(situation);

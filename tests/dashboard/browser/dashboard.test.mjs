@@ -194,7 +194,7 @@ test("while the dashboard hangs, the page says that its values are old and offer
   await until("the loss is shown", () => page.isVisible("#lost"));
   assert.match(await page.textContent("#link-state"), /lost/);
   await show("operate");
-  assert.ok(await page.isDisabled("#ask-arm") && await page.isDisabled("#ask-home"));
+  assert.ok(await page.isDisabled("#ask-arm") && await page.isDisabled("#ask-home") && await page.isDisabled("#mode"));
   dashboard.child.kill("SIGCONT");
   await until("live again", async () => !(await page.isVisible("#lost")) && (await page.locator("#link-state[data-state=live]").count()) === 1);
 });

@@ -16,10 +16,8 @@ using Eigen::VectorXd;
 constexpr int kMostRounds = 12;  // of Gauss-Newton
 /// Largest number of attempts for one group of values in a round, each with more damping than the attempt
 /// before. kFewAttempts applies to the values of one effect alone, and while the loss exceeds `loss_to_beat`.
-constexpr int kAttempts = 5, kFewAttempts = 3;
-/// Damping of the first attempt; after a rejected attempt, at least kRejectedDamping, because less damping
-/// hardly shortens the step, and kMoreDamping times that of this attempt.
-constexpr double kFirstDamping = 1e-3, kRejectedDamping = 0.5, kMoreDamping = 8;
+constexpr int kAttempts = 7, kFewAttempts = 3;
+constexpr double kFirstDamping = 1e-3;
 /// Study::kLeastGain for the values of a verdict, which are then within 0.1 standard deviations of the
 /// minimum.
 constexpr double kLeastGainOfVerdict = 0.01;
@@ -39,13 +37,6 @@ constexpr double kDecreaseMargin = 4;
 /// The slopes are computed again only if the decrease of the loss by a step differs from the predicted one by
 /// more than this share (gain ratio of a trust region: J. J. Moré, Lect. Notes Math. 630 (1978) 105).
 constexpr double kAsPredicted = 0.25;
-/// The same for the slopes of many values, whose computation costs more than a few inexact steps: they are
-/// computed again only if the decrease is less than this share of the predicted one.
-constexpr std::size_t kManyValues = 5;
-constexpr double kPoorlyPredicted = 0.25;
-/// Least decrease of the loss by a round with a rejected step. Such a loss has jumps, and the slopes describe
-/// only a part of it.
-constexpr double kLeastGainOfRough = 2;
 
 struct Flat {
   std::vector<const FreeParameter*> parameters;
@@ -152,7 +143,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
     const VectorXd gradient = both.gradient();
     const Flat flat = flatten(best.effects);
     double gained = 0;
-    bool as_predicted = true, rough = false;
+    bool as_predicted = true;
     const auto groups = step_groups(best.effects, apart);
     if (predicted_decrease_of(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) <
         kWorthAStep * enough)
@@ -166,9 +157,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
         const Effects tried = moved(best.effects, step);
         Evaluation found = evaluate(train_, tried, best.train);
         const double now = total_loss(found, loss), decrease = predicted_decrease_of(both, step);
-        as_predicted = as_predicted && (along.drive.size() < kManyValues
-                                            ? std::abs(least - now - decrease) <= kAsPredicted * decrease
-                                            : least - now >= kPoorlyPredicted * decrease);
+        as_predicted = as_predicted && std::abs(least - now - decrease) <= kAsPredicted * decrease;
         if (now < least) {
           moves = true;
           gained += least - now;
@@ -177,13 +166,12 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
           best.train = std::move(found);
           damping = std::max(1e-6, damping * 0.2);
         } else {
-          rough = true;
-          damping = std::max(kRejectedDamping, kMoreDamping * damping);
+          damping = std::max(damping, 1e-4) * 8;
         }
       }
       if (gained < enough) damping = kFirstDamping;
     }
-    if (gained < (rough ? std::max(enough, kLeastGainOfRough) : enough)) break;  // converged
+    if (gained < enough) break;  // converged
     if (!as_predicted) along = {}, here.reset();
   }
   return true;

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "crane/boards/port_io.hpp"
 #include "crane/boards/rig_lines.hpp"
@@ -45,7 +44,7 @@ class ServoToGo final : public Board {
     return static_cast<std::uint16_t>(base_ + offset);
   }
   [[nodiscard]] int recognised_model() const;
-  void check_presence();
+  void check_presence() const;
   void stop_timer() noexcept;
   void start_counter(const Counter& counter);
   /// Writes the low 24 bits of `counts`.
@@ -62,7 +61,6 @@ class ServoToGo final : public Board {
   std::array<Counter, kCounters> counters_{};
   std::array<bool, 4> pair_used_{};  ///< by channel / 2
   int model_;
-  std::optional<unsigned> test_index_;  ///< of the last board test
 };
 
 }  // namespace crane::bridge
