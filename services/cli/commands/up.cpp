@@ -106,15 +106,14 @@ class LastPosition {
   void follow() {
     while (const auto state = states_.take()) last_ = *state;
   }
-  /// Prints where the axes stand if the next start would assume other positions. Call when the bridge has
-  /// ended.
+  /// Prints where the axes stand if the next start would assume other positions, and the brakes that were
+  /// open. Call when the bridge has ended.
   void warn(const configuration::Rig& rig) {
     follow();
     if (!last_) return;
     const auto text = experiments::difference_from_start(
         rig, {last_->trolley_position_m, last_->slew_angle_rad, last_->cable_length_m});
-    if (text.empty()) return;
-    std::cerr << "crane up: " << text << '\n';
+    if (!text.empty()) std::cerr << "crane up: " << text << '\n';
     for (std::size_t i = 0; i < plant::kAxes; ++i)
       if (rig.drives[i].present && !last_->brake_closed[i])
         std::cerr << "crane up: the brake of the " << plant::kCoordinates[i].name
