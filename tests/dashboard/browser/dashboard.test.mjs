@@ -88,7 +88,7 @@ test("a click on the map aims, and Hold here holds", async () => {
   assert.ok(Math.abs(parseFloat(await page.inputValue("#target-slew")) - 90) < 3, await page.inputValue("#target-slew"));
   await page.click("#clear");
   await ask("hold");
-  await until("hold is accepted", async () => /Move accepted/.test(await page.textContent("#answer")));
+  await until("hold is accepted", async () => /Hold accepted/.test(await page.textContent("#answer")));
 });
 
 test("a move beyond the limits is refused with its reason", async () => {
