@@ -108,7 +108,8 @@ export class Desk extends EventTarget {
     this.waiting.delete(body.kind);
     this.#changed();
     const refused = answer.error ?? (answer.accepted ? "" : answer.reason);
-    this.say(refused ? `${name} refused: ${refused}` : `${name} accepted`, refused ? "bad" : "good");
+    const outcome = answer.status === 0 ? " without an answer" : " refused";
+    this.say(refused ? `${name}${outcome}: ${refused}` : `${name} accepted`, refused ? "bad" : "good");
     return !refused;
   }
 

@@ -4,7 +4,9 @@ import { Decoder, parseIdl } from "./cdr.js";
 
 const RETRY_MS = [200, 500, 1000, 2000];
 // The server sends a frame every 16 ms. A server that hangs or a cut link closes no socket.
-const LONGEST_SILENCE_MS = 1000, LOOK_MS = 200, REPLACE_MS = 5000;
+const OLD_MS = 1000, LOOK_MS = 200, REPLACE_MS = 5000;
+// Largest error of the clocks of page and server against each other, per frame: 120 ppm.
+const DRIFT_MS = 0.002;
 
 export class Link extends EventTarget {
   #socket = null;
@@ -13,6 +15,8 @@ export class Link extends EventTarget {
   #channels = new Map(); // topic -> channel
   #idl = null;
   #heard_ms = 0; // time of the newest frame
+  #least_offset_ms = Infinity; // of the page's clock from that of the server, with the least delay so far
+  #delay_ms = 0; // of the newest frame beyond the least delay: it has waited in the network or in this page
   #connected_ms = 0; // time at which the present connection was requested
   decoders = new Map(); // topic -> Decoder
   state = "connecting"; // "live", "lost"
@@ -47,6 +51,8 @@ export class Link extends EventTarget {
 
   #connect() {
     this.#connected_ms = performance.now();
+    this.#least_offset_ms = Infinity;
+    this.#delay_ms = 0;
     this.#socket = new WebSocket(this.url, "crane.batch.v1");
     this.#socket.binaryType = "arraybuffer";
     this.#socket.onopen = () => { this.#attempt = 0; };
@@ -60,7 +66,8 @@ export class Link extends EventTarget {
 
   #look() {
     const silence_ms = performance.now() - Math.max(this.#heard_ms, this.#connected_ms);
-    if (silence_ms > LONGEST_SILENCE_MS && this.state === "live") this.#change("lost");
+    if (this.state === "live" && Math.max(silence_ms, this.#delay_ms) > OLD_MS) this.#change("lost");
+    if (this.state === "lost" && this.#channels.size > 0 && Math.max(silence_ms, this.#delay_ms) <= OLD_MS) this.#change("live");
     const pending = [WebSocket.CONNECTING, WebSocket.OPEN].includes(this.#socket.readyState);
     if (silence_ms < REPLACE_MS || this.state !== "lost" || !pending) return;
     // After a cut of the network, the server has given up this connection, and no message says so.
@@ -88,7 +95,6 @@ export class Link extends EventTarget {
   #take(frame) {
     this.bytes += frame.byteLength;
     this.#heard_ms = performance.now();
-    if (this.state === "lost" && this.#channels.size > 0) this.#change("live");
     const view = new DataView(frame);
     for (let at = 0; at + 5 <= frame.byteLength;) {
       const kind = view.getUint8(at), length = view.getUint32(at + 1, true);
@@ -115,7 +121,7 @@ export class Link extends EventTarget {
   }
 
   #message(view) {
-    if (view.getUint8(0) !== 1) return; // the time: samples have their own
+    if (view.getUint8(0) !== 1) return this.#takeTime(Number(view.getBigUint64(1, true)) * 1e-6);
     const channel = this.byId.get(view.getUint32(1, true));
     const topic = channel?.topic.slice(1);
     const listeners = this.#listeners.get(topic);
@@ -131,6 +137,12 @@ export class Link extends EventTarget {
         console.error(topic, error);
       }
     }
+  }
+
+  #takeTime(server_ms) {
+    const offset_ms = performance.now() - server_ms;
+    this.#least_offset_ms = Math.min(this.#least_offset_ms + DRIFT_MS, offset_ms);
+    this.#delay_ms = offset_ms - this.#least_offset_ms;
   }
 
   /** {time_s (arrival, s since 1970), values (in the order of the decoder's columns), get(path)} */

@@ -9,6 +9,7 @@ import { AXES, STATES, element, fixed, meaningOf, plain } from "./words.js";
 const TRAIL_S = 10;
 const STALE_MS = 1000, LOOK_MS = 200; // crane/state arrives every tick: after this time without one, the values are unknown
 const LEGEND = [["measured", "", "Load, measured"], ["target", "dashed", "Target and planned path"], ["reference", "dashed", "Aim, not sent"], ["crane", "", "Crane"]];
+const UNHEARD = { heard: false, state: null, cause: "NONE", remedy: "the dashboard does not answer: use the wired emergency stop if the crane must stop" };
 const find = (id) => document.getElementById(id);
 
 export class OperateView {
@@ -181,7 +182,7 @@ export class OperateView {
     find("mode").disabled = !desk.mine || desk.lost;
     if (!situation) return;
     if (situation.mode && !desk.waiting.has("mode")) find("mode").value = situation.mode;
-    this.#drawSituation(situation);
+    this.#drawSituation(desk.lost ? UNHEARD : situation);
     situation.axes?.forEach((axis) => { find("axis-" + axis.name).hidden = !axis.present; });
     if (situation.axes) this.#configure(situation.axes);
   }
@@ -200,7 +201,7 @@ export class OperateView {
   }
 
   #drawSituation(situation) {
-    const [name, tone] = STATES[situation.state] ?? ["No supervisor", "stop"];
+    const [name, tone] = STATES[situation.state] ?? [this.desk.lost ? "Unknown" : "No supervisor", "stop"];
     find("situation").dataset.tone = tone;
     find("situation").dataset.state = situation.state ?? "";
     find("state-name").textContent = name;
@@ -208,8 +209,8 @@ export class OperateView {
     const hasCause = !situation.heard || situation.cause !== "NONE";
     find("cause").hidden = !hasCause;
     if (!hasCause) return;
-    find("cause-name").textContent = situation.latch ? plain("bridge: " + situation.latch.reason) : plain(situation.cause ?? "silence");
-    find("cause-meaning").textContent = situation.latch ? situation.latch.explanation : situation.homing && situation.cause === "HOMING_FAILED" ? plain(situation.homing.failure) : meaningOf(this.link.idl, "Cause", "CAUSE_" + situation.cause);
+    find("cause-name").textContent = situation.latch ? plain("bridge: " + situation.latch.reason) : plain(situation.heard ? situation.cause : "silence");
+    find("cause-meaning").textContent = situation.latch ? situation.latch.explanation : situation.homing && situation.cause === "HOMING_FAILED" ? plain(situation.homing.failure) : situation.heard ? meaningOf(this.link.idl, "Cause", "CAUSE_" + situation.cause) : "";
     const remedy = situation.latch?.remedy || (situation.cause === "HOMING_FAILED" && situation.homing?.remedy) || situation.remedy;
     find("remedy").textContent = remedy.charAt(0).toUpperCase() + remedy.slice(1) + ".";
   }

@@ -193,6 +193,7 @@ test("while the dashboard hangs, the page says that its values are old and offer
   dashboard.child.kill("SIGSTOP");
   await until("the loss is shown", () => page.isVisible("#lost"));
   assert.match(await page.textContent("#link-state"), /lost/);
+  assert.equal(await page.textContent("#state-name"), "Unknown");
   await show("operate");
   assert.ok(await page.isDisabled("#ask-arm") && await page.isDisabled("#ask-home") && await page.isDisabled("#mode"));
   dashboard.child.kill("SIGCONT");
