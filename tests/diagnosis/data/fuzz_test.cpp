@@ -119,10 +119,8 @@ void through_the_engine(const diagnosis::Run& run, const configuration::Rig& rig
   const Runs runs{prepare(run, rig)};
   const Replays replays = replays_of(runs, {rig.plant, rig.terms});
   for (const Part part : {Part::drive, Part::load}) {
-    Problem problem(runs, part, 2, 3);
-    if (problem.empty()) continue;
-    problem.learn_disturbance(replays);
-    (void)problem.fit(replays);
+    const Problem problem(runs, part, 2, 3);
+    if (!problem.empty()) (void)problem.whitened_by(replays).fit(replays);
   }
 }
 

@@ -208,10 +208,10 @@ TEST(MissingData, HaveNoResidual) {
   const auto rig = gantry();
   const Runs runs{prepare(loaded_as({.row_s = 0.01, .jitter = 0.4, .dropped = 0.2}).runs.at(0), rig)};
   for (const Part part : {Part::drive, Part::load}) {
-    Problem problem(runs, part, 2, 2.5);
+    const Problem plain(runs, part, 2, 2.5);
     const Replays replays = replays_of(runs, {rig.plant, rig.terms});
     for (const bool whitened : {false, true}) {
-      if (whitened) problem.learn_disturbance(replays);
+      const Problem problem = whitened ? plain.whitened_by(replays) : plain;
       const Fits fits = problem.fit(replays);
       for (std::size_t w = 0; w < fits.size(); ++w)
         for (std::size_t k = 0; k < problem.windows()[w].rows; ++k)

@@ -11,6 +11,7 @@
 #include "force/unexplained.hpp"
 #include "score/sealed_case.hpp"
 #include "search/intervals.hpp"
+#include "study/own_noise.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -266,11 +267,12 @@ TEST(Intervals, ContainTheTruthAndAreNarrow) {
   double width = 0;
   for (unsigned seed = 10; seed < 10 + kBodies; ++seed) {
     const Runs train{moved(rig, 60, 2 * seed, nothing)}, test{moved(rig, 10, 2 * seed + 1, nothing)};
-    Study study(rig, train, test);
+    const Study study(rig, train, test);
     const auto viscous = std::find_if(study.candidates().begin(), study.candidates().end(),
                                       [](const Candidate& c) { return c.cause == "viscous_friction"; });
-    study.learn_disturbance({{&*viscous, {kViscous_vspm}}});
-    const Fitted fitted = with_intervals(study, study.fit({{&*viscous, {0.1}}}), seed);
+    const WhitenedData data(study, learnt_nuisance(study, {{&*viscous, {kViscous_vspm}}}));
+    const Fitted fitted =
+        with_intervals(data, fit(data, {{&*viscous, {0.1}}}, kNothingToBeat, data.base()), seed);
     const double error = fitted.effects[0].values[0] - kViscous_vspm;
     EXPECT_LT(std::abs(error), 0.05 * kViscous_vspm) << "seed " << seed;
     inside += std::abs(error) <= 2 * fitted.interval_std_dev[0] ? 1 : 0;

@@ -2,6 +2,7 @@
 /// Runs of the laboratory of amplifier_lab.hpp, and the error of a rig file on them.
 #include "crane/diagnosis/data.hpp"
 #include "laboratory/amplifier_lab.hpp"
+#include "study/own_noise.hpp"
 #include "verdict/drive_error.hpp"
 
 namespace crane::diagnosis {
@@ -41,9 +42,9 @@ inline DriveError error_in(std::vector<Run> measured, const configuration::Rig& 
   Runs runs;
   for (Run& run : measured) runs.push_back(prepare(std::move(run), rig, kUsualAccuracy));
   const Runs none;
-  Study study(rig, runs, none, {}, kUsualAccuracy);
-  study.learn_disturbance();
-  return drive_errors(study, study.with({}), rig, kUsualAccuracy).at(0);
+  const Study study(rig, runs, none, {}, kUsualAccuracy);
+  const WhitenedData data(study, learnt_base_model(study).calibrated);
+  return drive_errors(data, data.with({}), rig, kUsualAccuracy).at(0);
 }
 
 }  // namespace crane::diagnosis

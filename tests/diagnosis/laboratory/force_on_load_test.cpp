@@ -5,7 +5,7 @@
 #include "crane/diagnosis/diagnosis.hpp"
 #include "force/swing_patterns.hpp"
 #include "laboratory/strange_lab.hpp"
-#include "study/study.hpp"
+#include "study/own_noise.hpp"
 #include "verdict/residual_patterns.hpp"
 
 namespace crane::diagnosis {
@@ -114,15 +114,14 @@ TEST(SwingSensor, WhoseGainFallsWithTheAngleIsUnknown) {
 /// A study of two runs of 20 s with its base model. The push acts in the first run only.
 struct Studied {
   explicit Studied(std::uint64_t seed, const Push& push = {})
-      : train{prepare(pushed(2 * seed, push), rig), prepare(pushed(2 * seed + 1, {}), rig)} {
-    study.learn_disturbance();
-  }
+      : train{prepare(pushed(2 * seed, push), rig), prepare(pushed(2 * seed + 1, {}), rig)} {}
   [[nodiscard]] SwingResidual left(std::uint64_t seed) const {
-    return swing_residual(study, study.base_model(), 2 * kUsualAccuracy.values, seed);
+    return swing_residual(data, base_fit(data), 2 * kUsualAccuracy.values, seed);
   }
   configuration::Rig rig = gantry();
   Runs train, test;
   Study study{rig, train, test};
+  WhitenedData data{study, learnt_base_model(study).calibrated};
 };
 
 /// 30 correct models, each tested for patterns, for a narrow band and for a short force at 1 %: 5 or more
@@ -132,9 +131,9 @@ TEST(SwingPatterns, OfACorrectModelAreRare) {
   int found = 0;
   for (std::uint64_t seed = kFirst; seed < kFirst + 30; ++seed) {
     const Studied studied(seed);
-    const Fits fits = studied.study.base_model().train.load;
-    const bool pattern = !find_swing_patterns(studied.study.load(), fits, 0, seed).empty(),
-               band = find_narrow_band(studied.study.load(), fits, 0).has_value(),
+    const Fits fits = studied.data.base().load;
+    const bool pattern = !find_swing_patterns(studied.data.load(), fits, 0, seed).empty(),
+               band = find_narrow_band(studied.data.load(), fits, 0).has_value(),
                force = !studied.left(seed).forces.empty();
     found += (pattern ? 1 : 0) + (band ? 1 : 0) + (force ? 1 : 0);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPeriod_s = 0.01;
 constexpr std::size_t kRows = 101;  // 1 s
-/// Finite difference of the fit, in parameter steps (Study::slopes).
+/// Finite difference of the fit, in parameter steps (WhitenedData::plain_slopes).
 constexpr double kShareOfStep = 0.3;
 
 struct Tested {

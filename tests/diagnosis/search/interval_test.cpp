@@ -7,6 +7,7 @@
 
 #include "laboratory/strange_lab.hpp"
 #include "search/intervals.hpp"
+#include "study/own_noise.hpp"
 #include "study/uncertainty.hpp"
 
 namespace crane::diagnosis {
@@ -41,13 +42,13 @@ TEST(IntervalOfASwingOffset, ContainsTheErrorOfTheZeroOfTheEncoder) {
   int within_two = 0;
   for (int encoder = 0; encoder < kEncoders; ++encoder) {
     const Runs train = free_swings(rig, random), none;
-    Study study(rig, train, none);
+    const Study study(rig, train, none);
     const auto offset = std::ranges::find_if(study.candidates(),
                                              [](const Candidate& c) { return c.cause == "swing_offset"; });
     ASSERT_NE(offset, study.candidates().end());
     const Effects effects{{&*offset, {kOffset_rad}}};
-    study.learn_disturbance(effects);
-    const Fitted fitted = with_intervals(study, study.fit(effects), 1);
+    const WhitenedData data(study, learnt_nuisance(study, effects));
+    const Fitted fitted = with_intervals(data, fit(data, effects, kNothingToBeat, data.base()), 1);
     const double error = fitted.effects[0].values[0] - kOffset_rad;
     within_two += std::abs(error) <= 2 * fitted.interval_std_dev[0] ? 1 : 0;
     EXPECT_NEAR(fitted.interval_std_dev[0], kCount_rad / std::sqrt(12), 0.1 * kCount_rad) << "seed " << kSeed;

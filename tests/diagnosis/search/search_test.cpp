@@ -21,9 +21,8 @@ TEST(Search, FindsALongDelayOfTheCommand) {
   request.seconds = 20;
   request.effects = {{"command_delay", 3, "trolley"}};
   const DataOfTruth data(request);
-  Study study(data.rig, data.train, data.test);
-  study.learn_disturbance();
-  const Fitted best = searched(study, {.most_effects = 1}).best;
+  const Study study(data.rig, data.train, data.test);
+  const Fitted best = searched(study, learnt_base_model(study), {.most_effects = 1}).best;
   ASSERT_EQ(label_of(best.effects), "command_delay (trolley)");
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
 }
@@ -38,9 +37,8 @@ TEST(Search, FindsNoHypothesisLessLikelyThanOneOfItsParts) {
     request.seconds = 20;
     request.effects = {{"command_offset", 2, "trolley"}, {"coulomb_friction", 2, "trolley"}};
     const DataOfTruth data(request);
-    Study study(data.rig, data.train, data.test);
-    study.learn_disturbance();
-    const Hypotheses found = searched(study, {.most_effects = 2});
+    const Study study(data.rig, data.train, data.test);
+    const Hypotheses found = searched(study, learnt_base_model(study), {.most_effects = 2});
     const auto likelihood = [](const Fitted& f) { return -0.5 * (sum(f.deviance) - f.penalty); };
     for (const Fitted& whole : found.all)
       for (const Fitted& part : found.all) {
@@ -67,7 +65,7 @@ TEST(Intervals, OfARippleContainTheTruthDespiteARoughLoss) {
     request.effects = {{"torque_ripple", 1, "trolley"}};
     const truth::Data generated = truth::generate(request);
     const DataOfTruth data(request);
-    Study study(data.rig, data.train, data.test);
+    const Study study(data.rig, data.train, data.test);
     const auto ripple = std::find_if(study.candidates().begin(), study.candidates().end(),
                                      [](const Candidate& c) { return c.waves; });
     const auto& answer = generated.answer[0].parameters;
@@ -75,8 +73,9 @@ TEST(Intervals, OfARippleContainTheTruthDespiteARoughLoss) {
                                     [](const truth::Value& v) { return v.name == "phase_rad"; });
     ASSERT_NE(phase, answer.end());
     const Effects hidden{{&*ripple, {kAmplitude_v, phase->value, kWavelength_m}}};
-    study.learn_disturbance(hidden);
-    const Fitted fitted = with_intervals(study, study.fit(hidden), seed);
+    const WhitenedData whitened(study, learnt_nuisance(study, hidden));
+    const Fitted fitted =
+        with_intervals(whitened, fit(whitened, hidden, kNothingToBeat, whitened.base()), seed);
     const auto error = [&](std::size_t i) {
       return std::abs(fitted.effects[0].values[i] - hidden[0].values[i]);
     };

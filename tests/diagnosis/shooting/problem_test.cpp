@@ -23,10 +23,9 @@ TEST(WindowsOfALoad, HaveTheSlopesOfTheirWhitenedOutputs) {
   Laboratory lab;
   Runs runs;
   runs.push_back(prepare(std::move(lab.run), lab.rig));
-  Problem problem(runs, Part::load, 2, lab.natural_radps);
   Crane crane{lab.rig.plant, lab.rig.terms};
   const Replays at = replays_of(runs, crane);
-  problem.learn_disturbance(at);
+  const Problem problem = Problem(runs, Part::load, 2, lab.natural_radps).whitened_by(at);
   const Fits fits = problem.fit(at);
   const double step = 0.01;
   crane.parameters.gravity_mps2 += step;

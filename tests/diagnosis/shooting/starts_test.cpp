@@ -87,8 +87,8 @@ TEST(StartsOfTwoCables, FollowWideSwings) {
     std::mt19937 random{seed};
     Runs runs;
     runs.push_back(prepare(wide_swing(rig, two, random), rig));
-    Problem problem(runs, Part::load, 2, std::sqrt(rig.plant.gravity_mps2 / cable_m));
-    problem.learn_disturbance(replays_of(runs, one));
+    const Problem problem = Problem(runs, Part::load, 2, std::sqrt(rig.plant.gravity_mps2 / cable_m))
+                                .whitened_by(replays_of(runs, one));
     const Fits fits = problem.fit(replays_of(runs, two));
     for (std::size_t w = 0; w < fits.size(); ++w) {
       const Eigen::VectorXd measured = problem.measured(problem.windows()[w]);

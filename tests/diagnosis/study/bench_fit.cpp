@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "crane/diagnosis/mapping.hpp"
-#include "study/study.hpp"
+#include "study/own_noise.hpp"
 
 namespace {
 
@@ -24,18 +24,22 @@ Runs measured(const crane::configuration::Rig& rig) {
 void fit_of_pivot_friction(benchmark::State& state) {
   const auto rig = crane::configuration::load_rig(std::string{CRANE_RIGS} + "/uw_pendulum.toml");
   const Runs runs = measured(rig), none;
-  Study study(rig, runs, none);
-  study.learn_disturbance();
+  const Study study(rig, runs, none);
   const auto& all = study.candidates();
   const auto found = std::find_if(all.begin(), all.end(), [](const Candidate& c) {
     return c.cause == "swing_pivot_friction" && c.axis == "radial";
   });
   const double inertia = rig.plant.load_mass_kg * std::pow(rig.start.position[crane::plant::kHoist], 2);
   const Effects start{{&*found, {0.02 * inertia, 0.005 * inertia}}};
-  Fitted fitted = study.fit(start);
-  // before this call, the noise model describes the friction as a disturbance
-  study.learn_disturbance(fitted.effects);
-  for (auto _ : state) fitted = study.fit(start);
+  const auto fit_in = [&](const Nuisance& nuisance) {
+    const WhitenedData data(study, nuisance);
+    return fit(data, start, kNothingToBeat, data.base());
+  };
+  Fitted fitted = fit_in(learnt_nuisance(study));
+  // in the noise of the base model, the friction is a disturbance
+  const WhitenedData data(study, learnt_nuisance(study, fitted.effects));
+  const Evaluation base = data.base();
+  for (auto _ : state) fitted = fit(data, start, kNothingToBeat, base);
   state.counters["b_nmsprad"] = fitted.effects[0].values[0];
   state.counters["c_nm"] = fitted.effects[0].values[1];
 }

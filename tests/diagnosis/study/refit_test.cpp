@@ -8,7 +8,8 @@
 
 #include "laboratory/strange_lab.hpp"
 #include "search/compare.hpp"
-#include "study/study.hpp"
+#include "study/own_noise.hpp"
+#include "study/score.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -33,9 +34,11 @@ strange::Gantry crane_with_drag() {
   return crane;
 }
 
-/// Study of the crane with a drag, with the noise of the base model.
+/// Study of the crane with a drag, and its data in the noise of the base model.
 struct StudyOfADrag {
-  StudyOfADrag() { study.learn_disturbance(); }
+  [[nodiscard]] Fitted fitted(const Effects& effects) const {
+    return refit_with_own_noise(study, base, first_fit(data, effects, base_fit(data)));
+  }
   [[nodiscard]] const Candidate* of_cause(const char* cause) const {
     return &*std::ranges::find(study.candidates(), std::string{cause}, &Candidate::cause);
   }
@@ -43,6 +46,8 @@ struct StudyOfADrag {
   configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
   Runs train = two_runs(crane_with_drag(), rig), none;
   Study study{rig, train, none, {}, kUsualAccuracy};
+  BaseModel base = learnt_base_model(study);
+  WhitenedData data{study, base.calibrated};
 };
 
 /// Largest difference between the roots of the statistics of two score tests, among the significant
@@ -59,13 +64,12 @@ double largest_difference(const ScoreTable& a, const ScoreTable& b) {
 /// model describes their errors as a disturbance. One round of fit and noise does not remove both.
 TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
   constexpr double kLimit = 2;
-  StudyOfADrag at;
-  Study& study = at.study;
+  const StudyOfADrag at;
   const Candidate* drag = at.of_cause("viscous_friction");
-  const Fitted once = study.refit_with_own_noise(study.first_fit({{drag, {0.02}}}, study.base_model()));
+  const Fitted once = at.fitted({{drag, {0.02}}});
   Fitted again = once;
   again.first_nuisance = once.nuisance;
-  again = study.refit_with_own_noise(again);
+  again = refit_with_own_noise(at.study, at.base, again);
   EXPECT_LT(sum(once.deviance) - sum(again.deviance), 2 * kLimit) << "minus twice the log likelihood";
 }
 
@@ -73,13 +77,13 @@ TEST(Refit, EndsWhereARoundGainsLessThanTwiceItsLimit) {
 /// from there changes the values by a small part of their uncertainty.
 TEST(Refit, WithSlopesOfEarlierValuesEndsAtTheMinimum) {
   constexpr double kSmall = 0.1;
-  StudyOfADrag at;
-  Study& study = at.study;
+  const StudyOfADrag at;
   for (const Effects& effects :
        {Effects{{at.of_cause("viscous_friction"), {0.02}}}, Effects{{at.of_cause("motor_gain"), {1.0}}},
         Effects{{at.of_cause("command_delay"), {0.01}}, {at.of_cause("cable_length"), {0.0}}}}) {
-    const Fitted once = study.refit_with_own_noise(study.first_fit(effects, study.base_model()));
-    const Fitted again = study.fit(once.effects, std::numeric_limits<double>::infinity(), once.train);
+    const Fitted once = at.fitted(effects);
+    const WhitenedData data(at.study, once.nuisance);
+    const Fitted again = fit(data, once.effects, kNothingToBeat, once.train);
     std::size_t value = 0;
     for (std::size_t i = 0; i < effects.size(); ++i)
       for (std::size_t k = 0; k < effects[i].values.size(); ++k, ++value)
@@ -92,23 +96,25 @@ TEST(Refit, WithSlopesOfEarlierValuesEndsAtTheMinimum) {
 /// base model. With slopes of their own, their statistics differ by less than noise changes them.
 TEST(ProbeSlopes, OfOneScoreTestServeLaterOnes) {
   constexpr double kSmall = 0.5;
-  StudyOfADrag at;
-  Study& study = at.study;
+  const StudyOfADrag at;
   ProbeSlopes known;
-  const ScoreTable first = study.score({}, study.base_train(), 1, known);
-  EXPECT_EQ(largest_difference(first, study.score({}, study.base_train(), 1, known)), 0);
+  const Evaluation base = at.data.base();
+  const ScoreTable first = score_test(at.data, {}, base, 1, known);
+  EXPECT_EQ(largest_difference(first, score_test(at.data, {}, base, 1, known)), 0);
 
   const Candidate* drag = at.of_cause("viscous_friction");
-  const Fitted with_drag = study.refit_with_own_noise(study.first_fit({{drag, {0.02}}}, study.base_model()));
+  const Fitted with_drag = at.fitted({{drag, {0.02}}});
+  const WhitenedData beside_drag(at.study, with_drag.nuisance);
   ProbeSlopes own;
-  EXPECT_LT(largest_difference(study.score(with_drag.effects, with_drag.train, 1, known),
-                               study.score(with_drag.effects, with_drag.train, 1, own)),
+  EXPECT_LT(largest_difference(score_test(beside_drag, with_drag.effects, with_drag.train, 1, known),
+                               score_test(beside_drag, with_drag.effects, with_drag.train, 1, own)),
             kSmall);
 
-  study.whiten_with(study.uncalibrated());
+  const WhitenedData exact(at.study, at.base.exact);
+  const Evaluation exact_base = exact.base();
   own = {};
-  EXPECT_LT(largest_difference(study.score({}, study.base_train(), 1, known),
-                               study.score({}, study.base_train(), 1, own)),
+  EXPECT_LT(largest_difference(score_test(exact, {}, exact_base, 1, known),
+                               score_test(exact, {}, exact_base, 1, own)),
             kSmall);
 }
 

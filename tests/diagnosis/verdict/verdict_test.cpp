@@ -71,16 +71,6 @@ TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
 /// An encoder that loses counts is named in addition to the verdict on the rest of the model.
 class EncoderThatLosesCounts : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    truth::Case request;
-    request.rig = "drive_axis";
-    request.seconds = 10;
-    data_.emplace(request);
-    study_.emplace(data_->rig, data_->train, data_->test);
-    study_->learn_disturbance();
-  }
-  static void TearDownTestSuite() { study_.reset(), data_.reset(); }
-
   static Diagnosis named_beside(Diagnosis diagnosis) {
     const LosingEncoder encoder{.axis = kTrolleyPosition,
                                 .jumps = 7,
@@ -90,12 +80,9 @@ class EncoderThatLosesCounts : public testing::Test {
                                 .jump_std_dev = 1e-4,
                                 .rate = 0.01,
                                 .rate_std_dev = 0.003};
-    name_losing({encoder}, *study_, *study_, diagnosis);
+    name_losing({encoder}, 12.5, diagnosis);
     return diagnosis;
   }
-
-  static inline std::optional<DataOfTruth> data_;
-  static inline std::optional<Study> study_;
 };
 
 TEST_F(EncoderThatLosesCounts, IsNamedAlone) {

@@ -70,11 +70,11 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
 
 }  // namespace
 
-Disturbances disturbances_of(const Study& study) {
+Disturbances disturbances_of(const WhitenedData& data) {
   constexpr double kUninformativeNoise = 1e6;  // m or rad
   Disturbances disturbances{};
   for (Disturbance& disturbance : disturbances) disturbance.noise = kUninformativeNoise;
-  for (const Problem* problem : {&study.drive(), &study.load()})
+  for (const Problem* problem : {&data.drive(), &data.load()})
     for (std::size_t i = 0; i < problem->disturbances().size(); ++i)
       disturbances[problem->outputs()[i]] = problem->disturbances()[i];
   return disturbances;

@@ -6,7 +6,7 @@
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "noise/whitening.hpp"
-#include "study/study.hpp"
+#include "study/whitened_data.hpp"
 
 namespace crane::diagnosis {
 
@@ -15,7 +15,7 @@ using Disturbances = std::array<Disturbance, kOutputs>;
 
 /// Disturbances of the simulated outputs. An output without a measurement gets a noise of 1e6 m or rad,
 /// so that it has no weight.
-[[nodiscard]] Disturbances disturbances_of(const Study& study);
+[[nodiscard]] Disturbances disturbances_of(const WhitenedData& data);
 
 /// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): selects the listed motion for
 /// which the refitted rival differs most from the predictions of the assumed truth. Each hypothesis is the

@@ -15,7 +15,7 @@ struct Disturbance {
   double damping_ps = 0;     ///< c, 1/s
   double friction = 0;       ///< standard deviation of u at standstill, m/s2 or rad/s2
   bool sticks = false;
-  double unit = 1;  ///< of the values above, m or rad; infinite: the speed is never inaccurate
+  double unit = 1;  ///< m or rad; the values above are multiples of it. Infinity: the speed has no error
   /// Minus twice the log likelihood of the residuals it was learnt from, without constant.
   double misfit = 0;
 };

@@ -14,11 +14,11 @@ constexpr int kResamples = static_cast<int>(rules::kResamples.count());
 /// Windows of one part with starts that minimise the error in m or rad. A start that minimises the whitened
 /// error may leave a larger error in m or rad than a load at rest.
 struct PlainFits {
-  Problem problem;
+  const Problem& problem;
   Fits fits;
 
   PlainFits(const Problem& windows, const Crane& crane)
-      : problem{windows.plain()}, fits{problem.fit(replays_of(problem.runs(), crane))} {}
+      : problem{windows}, fits{problem.fit(replays_of(problem.runs(), crane))} {}
   /// Mean squares by window, of one output.
   [[nodiscard]] std::vector<double> mean_squares(std::size_t output) const {
     std::vector<double> result = problem.squares_left(fits, output);
@@ -99,15 +99,16 @@ std::vector<std::vector<double>> simulated_outputs(const Problem& whole, const C
 
 }  // namespace
 
-std::vector<Trace> traces(const Study& study, const Study& as_measured, const Effects& effects) {
+std::vector<Trace> traces(const Study& study, const Study& as_measured, const Fitted& fitted) {
   std::vector<Trace> all;
+  const Crane extended = study.crane(fitted.nuisance.inaccuracies, fitted.effects);
   for (const auto& [problem, problem_as_measured] :
-       {std::pair{&study.test_drive(), &as_measured.test_drive()},
-        {&study.test_load(), &as_measured.test_load()}}) {
+       {std::pair{&study.test().drive, &as_measured.test().drive},
+        {&study.test().load, &as_measured.test().load}}) {
     const Problem whole(problem->runs(), problem->part(), kWholeRun, 0);
     const Problem whole_as_measured(problem_as_measured->runs(), problem->part(), kWholeRun, 0);
     const auto before = simulated_outputs(whole_as_measured, study.base()),
-               after = simulated_outputs(whole, study.with(effects));
+               after = simulated_outputs(whole, extended);
     for (std::size_t w = 0; w < whole.windows().size(); ++w) {
       const std::size_t number = whole.windows()[w].run;
       const Run& run = whole_as_measured.runs()[number].run;
@@ -130,14 +131,14 @@ std::vector<Trace> traces(const Study& study, const Study& as_measured, const Ef
   return all;
 }
 
-HeldOut held_out(const Study& study, const Study& as_measured, const Effects& effects, std::uint64_t seed) {
+HeldOut held_out(const Study& study, const Study& as_measured, const Fitted& fitted, std::uint64_t seed) {
   HeldOut result;
-  if (study.test_drive().empty() && study.test_load().empty()) return result;
-  const Crane extended = study.with(effects);
+  if (study.test().drive.empty() && study.test().load.empty()) return result;
+  const Crane extended = study.crane(fitted.nuisance.inaccuracies, fitted.effects);
   Compared compared;
   for (const auto& [as_it_was, problem, learned] :
-       {std::tuple{&as_measured.test_drive(), &study.test_drive(), &study.drive()},
-        {&as_measured.test_load(), &study.test_load(), &study.load()}}) {
+       {std::tuple{&as_measured.test().drive, &study.test().drive, &study.train().drive},
+        {&as_measured.test().load, &study.test().load, &study.train().load}}) {
     if (problem->empty()) continue;
     const PlainFits before{*as_it_was, study.base()}, after{*problem, extended}, trained{*learned, extended};
     for (std::size_t o = 0; o < problem->outputs().size(); ++o) {
@@ -147,7 +148,7 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
       result.extended_rms[name] = std::sqrt(mean(now));
       result.noise[name] = std::max(least_noise_of(learned->runs(), problem->outputs()[o]),
                                     std::sqrt(mean(trained.mean_squares(o))));
-      if (acts_on(effects, problem->outputs()[o])) {
+      if (acts_on(fitted.effects, problem->outputs()[o])) {
         compared.before.push_back(std::move(then));
         compared.after.push_back(std::move(now));
         compared.noise.push_back(result.noise[name]);
@@ -172,7 +173,7 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
   };
   result.gain_ci95 = {quantile((1 - rules::kGainLevel) / 2), quantile((1 + rules::kGainLevel) / 2)};
   std::map<std::string, double> rows, measured_motion, simulated_motion;
-  for (const Trace& trace : traces(study, as_measured, effects)) {
+  for (const Trace& trace : traces(study, as_measured, fitted)) {
     measured_motion[trace.column] += scatter(trace.measured, trace.measured);
     simulated_motion[trace.column] += scatter(trace.extended, trace.measured);
     const auto first =

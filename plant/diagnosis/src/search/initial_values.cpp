@@ -8,18 +8,22 @@
 #include "search/parts.hpp"
 
 namespace crane::diagnosis {
+namespace {
 
-Effects InitialValues::best_of(const std::vector<Effects>& starts, const Fitted& near) const {
+/// The starts with the lowest loss.
+Effects best_of(const WhitenedData& data, const std::vector<Effects>& starts, const Fitted& near) {
   if (starts.size() == 1) return starts[0];
   const Effects* best = &starts[0];
   double least = std::numeric_limits<double>::infinity();
   for (const Effects& start : starts)
-    if (const double loss = study_.train(start, near.train).loss; loss < least) least = loss, best = &start;
+    if (const double loss = data.evaluated(start, near.train).loss; loss < least) least = loss, best = &start;
   return *best;
 }
 
-Effects InitialValues::of(const Fitted& given, const Score& score) {
-  const Candidate* candidate = &study_.candidates()[score.candidate];
+}  // namespace
+
+Effects InitialValues::of(const WhitenedData& data, const Fitted& given, const Score& score) {
+  const Candidate* candidate = &data.study().candidates()[score.candidate];
   const auto compared = best_ringing_.find(candidate);
   std::vector<std::vector<double>> values = score.starts;
   if (compared != best_ringing_.end()) {
@@ -33,7 +37,7 @@ Effects InitialValues::of(const Fitted& given, const Score& score) {
     starts.push_back(given.effects);
     starts.back().push_back({candidate, of_start});
   }
-  const Effects best = best_of(starts, given);
+  const Effects best = best_of(data, starts, given);
   if (candidate->ringing_starts_at) {
     Ringing& ringing = best_ringing_[candidate];
     ringing.best = best.back().values;
@@ -42,15 +46,15 @@ Effects InitialValues::of(const Fitted& given, const Score& score) {
   return best;
 }
 
-std::vector<const Candidate*> InitialValues::add_of_lines(const Fitted& given, std::uint64_t seed,
-                                                          ScoreTable& scores) const {
+std::vector<const Candidate*> InitialValues::add_of_lines(const WhitenedData& data, const Fitted& given,
+                                                          std::uint64_t seed, ScoreTable& scores) const {
   std::vector<double> lines_hz;
-  for (std::size_t output = 0; output < study_.load().outputs().size(); ++output)
-    if (const auto line = find_force_line(pieces_of(study_.load(), given.train.load, output), seed))
+  for (std::size_t output = 0; output < data.load().outputs().size(); ++output)
+    if (const auto line = find_force_line(pieces_of(data.load(), given.train.load, output), seed))
       lines_hz.push_back(line->hz);
   std::vector<const Candidate*> ringing;
   for (Score& score : scores.best) {
-    const Candidate& candidate = study_.candidates()[score.candidate];
+    const Candidate& candidate = data.study().candidates()[score.candidate];
     if (!candidate.ringing_starts_at) continue;
     const std::size_t known = score.starts.size();
     for (const double hz : lines_hz)
@@ -61,7 +65,8 @@ std::vector<const Candidate*> InitialValues::add_of_lines(const Fitted& given, s
   return ringing;
 }
 
-Effects InitialValues::with_new_wave(const Effects& effects, const Fitted& near) const {
+Effects InitialValues::with_new_wave(const WhitenedData& data, const Effects& effects,
+                                     const Fitted& near) const {
   std::vector<Effects> starts{effects};
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Candidate& wave = *effects[i].candidate;
@@ -71,12 +76,12 @@ Effects InitialValues::with_new_wave(const Effects& effects, const Fitted& near)
       return other.candidate->axis == wave.axis && other.candidate->load;
     };
     if (std::ranges::none_of(others, changes_positions)) continue;
-    for (const Shape& shape : study_.shapes_of(wave, others)) {
+    for (const Shape& shape : shapes_of(data, wave, others)) {
       starts.push_back(effects);
       starts.back()[i].values = wave.begin(shape, shape.amounts);
     }
   }
-  return best_of(starts, near);
+  return best_of(data, starts, near);
 }
 
 }  // namespace crane::diagnosis

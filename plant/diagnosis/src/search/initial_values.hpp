@@ -4,30 +4,29 @@
 #include <map>
 #include <vector>
 
-#include "study/study.hpp"
+#include "study/score.hpp"
 
 namespace crane::diagnosis {
 
 /// Compares initial values by the loss of the training data before any fit. Remembers the best initial values
-/// of each ringing cause, because their comparison needs a fit of the starts of all windows.
+/// of each ringing cause, because their comparison needs a fit of the starts of all windows. The data are
+/// always in the noise of the given hypothesis.
 class InitialValues {
  public:
-  /// @param study must outlive this object
-  explicit InitialValues(Study& study) : study_(study) {}
-
   /// The effects of `given` and the candidate of `score` with its best initial values.
-  [[nodiscard]] Effects of(const Fitted& given, const Score& score);
+  [[nodiscard]] Effects of(const WhitenedData& data, const Fitted& given, const Score& score);
 
   /// For each significant line in the residual of the swing of `given`: adds initial values to the scores of
   /// the candidates that can oscillate at this line. @param seed of the test for lines @return these
   /// candidates
-  [[nodiscard]] std::vector<const Candidate*> add_of_lines(const Fitted& given, std::uint64_t seed,
-                                                           ScoreTable& scores) const;
+  [[nodiscard]] std::vector<const Candidate*> add_of_lines(const WhitenedData& data, const Fitted& given,
+                                                           std::uint64_t seed, ScoreTable& scores) const;
 
   /// The effects with new initial values of each force that depends on the position of an axis whose sensor
   /// another effect changes: this effect changes the positions at which the force acts.
   /// @param near fit of some of the effects
-  [[nodiscard]] Effects with_new_wave(const Effects& effects, const Fitted& near) const;
+  [[nodiscard]] Effects with_new_wave(const WhitenedData& data, const Effects& effects,
+                                      const Fitted& near) const;
 
  private:
   /// Compared initial values of a ringing cause.
@@ -36,9 +35,6 @@ class InitialValues {
     std::vector<std::vector<double>> all;
   };
 
-  [[nodiscard]] Effects best_of(const std::vector<Effects>& starts, const Fitted& near) const;
-
-  Study& study_;
   std::map<const Candidate*, Ringing> best_ringing_;
 };
 

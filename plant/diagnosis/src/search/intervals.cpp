@@ -9,6 +9,7 @@
 
 #include "rules.hpp"
 #include "search/rough_interval.hpp"
+#include "study/fit.hpp"
 #include "study/uncertainty.hpp"
 
 namespace crane::diagnosis {
@@ -40,7 +41,7 @@ double value_of(const Effects& effects, Index number) {
 
 /// Evaluates outwards in both directions until the loss exceeds kFarLoss or the value reaches its bound.
 /// @param effects of the fit, then inaccuracies of the rig file @param direction of all of them
-Profile profile_of(const Study& study, const Fitted& fitted, const Effects& effects,
+Profile profile_of(const WhitenedData& data, const Fitted& fitted, const Effects& effects,
                    const VectorXd& direction, Index value) {
   Profile profile{{0, fitted.train.blocks}};
   for (const double side : {-1.0, 1.0}) {
@@ -49,7 +50,7 @@ Profile profile_of(const Study& study, const Fitted& fitted, const Effects& effe
       const Effects there = moved(effects, side * distance * direction);
       if (value_of(there, value) == last) break;
       last = value_of(there, value);
-      const Evaluation found = study.train(there, fitted.train);
+      const Evaluation found = data.evaluated(there, fitted.train);
       profile.emplace(side * distance, found.blocks);
       if (found.loss > fitted.train.loss + kFarLoss) break;
     }
@@ -128,14 +129,15 @@ Effects first_of(const Effects& effects, std::size_t count) {
 
 }  // namespace
 
-Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
-  fitted = study.converged(std::move(fitted));
+Fitted with_intervals(const WhitenedData& data, Fitted fitted, std::uint64_t seed) {
+  const Evaluation base = data.base();
+  fitted = converged(data, std::move(fitted));
   for (int attempt = 0;; ++attempt) {
     const bool last = attempt + 1 == kAttempts;
-    const LossParabola parabola = fit_loss_parabola(study, fitted);
+    const LossParabola parabola = fit_loss_parabola(data, base, fitted);
     Effects better;
     if (!last && parabola.best_loss < fitted.train.loss - kBetter) better = parabola.best;
-    const Uncertainty uncertainty = study.uncertainty_of(fitted);
+    const Uncertainty uncertainty = uncertainty_of(data, fitted);
     std::vector<double> std_dev;
     for (const ValueUncertainty& value : uncertainty.values) {
       if (!better.empty()) break;
@@ -145,7 +147,7 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
         continue;
       }
       const VectorXd direction = value.std_dev * value.line;
-      const Profile profile = profile_of(study, fitted, uncertainty.effects, direction, i);
+      const Profile profile = profile_of(data, fitted, uncertainty.effects, direction, i);
       const Best best = best_of(profile);
       if (!last && best.gain > kBetter)
         better = first_of(moved(uncertainty.effects, best.at * direction), fitted.effects.size());
@@ -158,7 +160,7 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
       fitted.interval_std_dev = std::move(std_dev);
       return fitted;
     }
-    Fitted refit = study.converged(study.fit(better));
+    Fitted refit = converged(data, fit(data, better, kNothingToBeat, base));
     // A profile along the inaccuracies may decrease the loss where the values alone cannot.
     if (refit.train.loss < fitted.train.loss)
       fitted = std::move(refit);

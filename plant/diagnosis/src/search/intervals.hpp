@@ -1,6 +1,6 @@
 #pragma once
 /// Standard deviations of the fitted values.
-#include "study/study.hpp"
+#include "study/whitened_data.hpp"
 
 namespace crane::diagnosis {
 
@@ -8,7 +8,7 @@ namespace crane::diagnosis {
 /// interval. Where an axis sticks and slips, the loss is a stepped function of a value, not a parabola, and
 /// the slope at the best value does not give the scatter: the scatter of the minimum of the profile under
 /// resampling of the blocks replaces it. If a profile finds a better value, the fit is repeated from this
-/// value.
-[[nodiscard]] Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed);
+/// value. @param data in the noise of the fit
+[[nodiscard]] Fitted with_intervals(const WhitenedData& data, Fitted fitted, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

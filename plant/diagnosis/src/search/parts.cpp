@@ -40,7 +40,8 @@ Effect with_no_amount(Effect effect) {
 
 }  // namespace
 
-Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all, const Fitted& given) {
+Fitted no_worse_than_its_parts(const Study& study, const BaseModel& base, const std::vector<Fitted>& all,
+                               const Fitted& given) {
   Fitted whole = given;
   if (given.effects.size() < 2) return whole;
   for (std::size_t i = 0; i < given.effects.size(); ++i) {
@@ -48,10 +49,9 @@ Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all, con
     if (part == nullptr || !likelier_without_penalty(*part, whole)) continue;
     Effects start = part->effects;
     start.push_back(with_no_amount(given.effects[i]));
-    study.whiten_training(part->nuisance);
-    Fitted first = study.first_fit(start, *part);
+    Fitted first = first_fit(WhitenedData(study, part->nuisance), start, *part);
     first.first_nuisance = part->nuisance;  // with this noise, the start is as likely as the part
-    const Fitted again = study.refit_with_own_noise(first);
+    const Fitted again = refit_with_own_noise(study, base, first);
     if (less(again, whole)) whole = again;
   }
   return whole;

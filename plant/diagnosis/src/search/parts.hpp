@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "study/study.hpp"
+#include "study/own_noise.hpp"
 
 namespace crane::diagnosis {
 
@@ -19,8 +19,8 @@ void keep(std::vector<Fitted>& all, const Fitted& fitted);
 /// At the values of a part, with amount 0 of the remaining effect, a hypothesis is as likely as the part. A
 /// less likely fit has stopped at another minimum; it is repeated from the values of the part.
 /// @param all fits among which the parts are looked up @return the likeliest of `given` and the repeated fits
-[[nodiscard]] Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all,
-                                             const Fitted& given);
+[[nodiscard]] Fitted no_worse_than_its_parts(const Study& study, const BaseModel& base,
+                                             const std::vector<Fitted>& all, const Fitted& given);
 
 /// The hypotheses of both lists, each once, in the order of decreasing likelihood.
 [[nodiscard]] std::vector<Fitted> merged(std::vector<Fitted> some, const std::vector<Fitted>& more);

@@ -100,11 +100,13 @@ MatrixXd covariance_of(const std::vector<VectorXd>& places, const VectorXd& loss
 class Surroundings {
  public:
   /// @param first number of the effect's first value among all of the fit
-  Surroundings(const Study& study, const Fitted& fitted, const Effect& effect, Index first)
-      : study_(study),
+  Surroundings(const WhitenedData& data, const Evaluation& base, const Fitted& fitted, const Effect& effect,
+               Index first)
+      : data_(data),
+        base_(base),
         fitted_(fitted),
         first_(first),
-        directions_(directions_of(effect, study.drive().runs())),
+        directions_(directions_of(effect, data.runs())),
         places_(places_about(directions_.cols())) {}
 
   /// Standard deviations of the values of the effect. Halves the distances while the loss is not a parabola
@@ -124,14 +126,15 @@ class Surroundings {
       VectorXd step = VectorXd::Zero(static_cast<Index>(fitted_.parameters));
       step.segment(first_, directions_.rows()) = directions_ * places_[i];
       const Effects there = moved(fitted_.effects, step);
-      const double loss = study_.train(there).loss;
+      const double loss = data_.evaluated(there, base_).loss;
       all[static_cast<Index>(i)] = loss;
       if (loss < found.best_loss) found.best = there, found.best_loss = loss;
     }
     return all;
   }
 
-  const Study& study_;
+  const WhitenedData& data_;
+  const Evaluation& base_;
   const Fitted& fitted_;
   Index first_;
   MatrixXd directions_;
@@ -140,14 +143,14 @@ class Surroundings {
 
 }  // namespace
 
-LossParabola fit_loss_parabola(const Study& study, const Fitted& fitted) {
+LossParabola fit_loss_parabola(const WhitenedData& data, const Evaluation& base, const Fitted& fitted) {
   LossParabola found{VectorXd::Zero(static_cast<Index>(fitted.parameters)), fitted.effects,
                      fitted.train.loss};
   Index first = 0;
   for (const Effect& effect : fitted.effects) {
     const auto count = static_cast<Index>(effect.values.size());
     if (is_rough(*effect.candidate))
-      found.std_dev.segment(first, count) = Surroundings(study, fitted, effect, first).std_dev(found);
+      found.std_dev.segment(first, count) = Surroundings(data, base, fitted, effect, first).std_dev(found);
     first += count;
   }
   return found;

@@ -1,5 +1,5 @@
 #pragma once
-#include "study/study.hpp"
+#include "study/whitened_data.hpp"
 
 namespace crane::diagnosis {
 
@@ -13,7 +13,8 @@ struct LossParabola {
 
 /// Standard deviation of values with a rough loss. The position of the minimum of a rough loss is random:
 /// every value at which the parabola rises by less than the roughness is equally likely. The values of the
-/// other effects are held.
-[[nodiscard]] LossParabola fit_loss_parabola(const Study& study, const Fitted& fitted);
+/// other effects are held. @param base  evaluation of the base model
+[[nodiscard]] LossParabola fit_loss_parabola(const WhitenedData& data, const Evaluation& base,
+                                             const Fitted& fitted);
 
 }  // namespace crane::diagnosis

@@ -6,7 +6,7 @@
 
 namespace crane::diagnosis {
 
-const ScoreTable& ScoreTests::beside(const Fitted& given) {
+const ScoreTable& ScoreTests::beside(const WhitenedData& data, const Fitted& given) {
   const auto known = std::ranges::find_if(scored_, [&](const Scored& scored) {
     return same(scored.effects, given.effects) && scored.deviance == given.deviance;
   });
@@ -14,7 +14,7 @@ const ScoreTable& ScoreTests::beside(const Fitted& given) {
   const std::uint64_t seed = seed_ + given.effects.size();
   return scored_
       .emplace_back(given.effects, given.deviance,
-                    study_.score(given.effects, given.train, seed, probe_slopes_))
+                    score_test(data, given.effects, given.train, seed, probe_slopes_))
       .table;
 }
 

@@ -3,18 +3,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "study/study.hpp"
+#include "study/score.hpp"
 
 namespace crane::diagnosis {
 
 class ScoreTests {
  public:
-  /// @param study must outlive this object
-  ScoreTests(const Study& study, std::uint64_t seed) : study_(study), seed_(seed) {}
+  explicit ScoreTests(std::uint64_t seed) : seed_(seed) {}
 
-  /// Scores beside a hypothesis; valid until the next call.
-  /// @pre the study is whitened with its nuisance parameters
-  [[nodiscard]] const ScoreTable& beside(const Fitted& given);
+  /// Scores beside a hypothesis; valid until the next call. @param data in its noise
+  [[nodiscard]] const ScoreTable& beside(const WhitenedData& data, const Fitted& given);
 
  private:
   /// Score test beside a hypothesis, which its deviance identifies.
@@ -24,7 +22,6 @@ class ScoreTests {
     ScoreTable table;
   };
 
-  const Study& study_;
   std::uint64_t seed_;
   std::vector<Scored> scored_;
   ProbeSlopes probe_slopes_;

@@ -34,16 +34,17 @@ Effects and_one(Effects effects, const Candidate* candidate) {
 
 class Search {
  public:
-  Search(Study& study, const Request& request) : study_(study), request_(request) {
-    found_.base = found_.best = study.base_model();
+  Search(const Study& study, const BaseModel& base, const Request& request)
+      : study_(study), base_(base), request_(request) {
+    found_.base = found_.best = base_in(base.calibrated);
   }
 
   Hypotheses run() {
     request_.progress(0.05, "scores of all candidates");
     // The fitted inaccuracies absorb a part of a missing effect. A fit of this effect beside them then finds
     // too small a value. Effects are therefore also fitted beside the unchanged values of the rig file.
-    record_detection(score_tests_.beside(found_.base));
-    if (!study_.uncalibrated().inaccuracies.empty()) extend(base_in(study_.uncalibrated()), kFirst);
+    record_detection(score_tests_.beside(WhitenedData(study_, base_.calibrated), found_.base));
+    if (!base_.exact.inaccuracies.empty()) extend(base_in(base_.exact), kFirst);
     extend(found_.base, kFirst);
     Hypotheses& found = found_;
     std::vector<Fitted> level = refit_likeliest();
@@ -77,16 +78,24 @@ class Search {
  private:
   Hypotheses finished() {
     Hypotheses& found = found_;
-    study_.whiten_with(found.best.nuisance);
-    found.base.train = study_.base_train();
+    found.base.train = WhitenedData(study_, found.best.nuisance).base();
     for (const Fitted& fitted : found.all) rank(fitted);
     return std::move(found_);
   }
 
   /// The base model with other nuisance parameters.
-  [[nodiscard]] Fitted base_in(const Nuisance& nuisance) {
-    study_.whiten_with(nuisance);
-    return study_.base_model();
+  [[nodiscard]] Fitted base_in(const Nuisance& nuisance) const {
+    return base_fit(WhitenedData(study_, nuisance));
+  }
+
+  [[nodiscard]] Fitted refitted(const Fitted& first_fit) const {
+    return refit_with_own_noise(study_, base_, first_fit);
+  }
+
+  /// Fit of effects of which none was fitted. @param nuisance of a hypothesis that contains them
+  [[nodiscard]] Fitted fitted_in(const Nuisance& nuisance, const Effects& effects) const {
+    const WhitenedData data(study_, nuisance);
+    return refitted(first_fit(data, effects, base_fit(data)));
   }
 
   /// Refits every hypothesis that lacks one effect of `given`, from the values of `given`. The search need
@@ -95,14 +104,13 @@ class Search {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       const Effects rest = without(whole.effects, i);
-      study_.whiten_with(whole.nuisance);
-      Fitted fitted = study_.refit_with_own_noise(study_.first_fit(rest, study_.base_model()));
+      const Fitted fitted = fitted_in(whole.nuisance, rest);
       keep(found_.all, fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
     }
     for (Fitted& fitted : found_.all)
       if (fitted.effects.size() == whole.effects.size())
-        fitted = no_worse_than_its_parts(study_, found_.all, fitted);
+        fitted = no_worse_than_its_parts(study_, base_, found_.all, fitted);
   }
 
   /// Refits the parts of the likeliest hypothesis. The hypotheses that contain these parts may become
@@ -142,12 +150,7 @@ class Search {
           }))
         continue;
       const Fitted* part = rest.empty() ? &found_.base : find(found_.all, rest);
-      if (part != nullptr) {
-        extend(*part, 0, others);
-      } else {
-        study_.whiten_with(whole.nuisance);
-        extend(study_.refit_with_own_noise(study_.first_fit(rest, study_.base_model())), 0, others);
-      }
+      extend(part != nullptr ? *part : fitted_in(whole.nuisance, rest), 0, others);
     }
     accept_one_of(refit_likeliest());
   }
@@ -169,9 +172,10 @@ class Search {
   double extend(const Fitted& given, std::size_t count, std::vector<const Candidate*> always = {},
                 double needed = 0) {
     const Fitted there = given;  // `all` grows
-    study_.whiten_training(there.nuisance);
-    ScoreTable scores = score_tests_.beside(there);
-    const std::vector<const Candidate*> ringing = initial_values_.add_of_lines(there, request_.seed, scores);
+    const WhitenedData data(study_, there.nuisance);
+    ScoreTable scores = score_tests_.beside(data, there);
+    const std::vector<const Candidate*> ringing =
+        initial_values_.add_of_lines(data, there, request_.seed, scores);
     always.insert(always.end(), ringing.begin(), ringing.end());
     if (!there.effects.empty() && scores.p_value > rules::kSignificant) {
       if (ringing.empty()) return scores.p_value;
@@ -187,9 +191,9 @@ class Search {
       const Candidate& candidate = study_.candidates()[score.candidate];
       const bool required = std::ranges::find(always, &candidate) != always.end();
       if (!required && reachable_decrease(score, candidate, there) < needed) continue;
-      const Effects start = initial_values_.of(there, score);
+      const Effects start = initial_values_.of(data, there, score);
       if (there.effects.empty()) request_.progress(0.1, "fit of " + candidate.label());
-      tried_.push_back(study_.first_fit(initial_values_.with_new_wave(start, there), there));
+      tried_.push_back(first_fit(data, initial_values_.with_new_wave(data, start, there), there));
     }
     return ringing.empty() ? scores.p_value : rules::kSignificant.value;
   }
@@ -208,11 +212,12 @@ class Search {
   }
 
   void try_pairs(const std::vector<Fitted>& singles) {
-    const Fitted base = base_in(found_.best.nuisance);
+    const WhitenedData data(study_, found_.best.nuisance);
+    const Fitted base = base_fit(data);
     for (std::size_t i = 0; i < std::min(kPaired, singles.size()); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const Effects pair{singles[i].effects[0], singles[j].effects[0]};
-        if (!known(pair)) tried_.push_back(study_.first_fit(pair, base));
+        if (!known(pair)) tried_.push_back(first_fit(data, pair, base));
       }
   }
 
@@ -221,7 +226,7 @@ class Search {
   std::vector<Fitted> refit_likeliest() {
     std::vector<Fitted> level;
     for (const Fitted& tried : worth_a_refit(std::exchange(tried_, {}), found_.base, found_.best))
-      level.push_back(no_worse_than_its_parts(study_, found_.all, study_.refit_with_own_noise(tried)));
+      level.push_back(no_worse_than_its_parts(study_, base_, found_.all, refitted(tried)));
     std::sort(level.begin(), level.end(), less);
     for (const Fitted& fitted : level) keep(found_.all, fitted);
     return level;
@@ -260,8 +265,8 @@ class Search {
         fewer.push_back(*fitted);
         continue;
       }
-      study_.whiten_training(found_.base.nuisance);
-      fewer.push_back(study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
+      const WhitenedData data(study_, found_.base.nuisance);
+      fewer.push_back(refitted(first_fit(data, rest, found_.base)));
       keep(found_.all, fewer.back());
     }
     for (const Fitted& one : fewer)
@@ -280,17 +285,20 @@ class Search {
     ranked.p_value = known == p_value_.end() ? 1 : known->second;
   }
 
-  Study& study_;
+  const Study& study_;
+  const BaseModel& base_;
   const Request& request_;
   Hypotheses found_;
-  ScoreTests score_tests_{study_, request_.seed};
+  ScoreTests score_tests_{request_.seed};
   std::vector<Fitted> tried_;  ///< first fits that have not been refitted
-  InitialValues initial_values_{study_};
+  InitialValues initial_values_;
   std::map<std::size_t, double> p_value_;  ///< of every candidate alone
 };
 
 }  // namespace
 
-Hypotheses searched(Study& study, const Request& request) { return Search(study, request).run(); }
+Hypotheses searched(const Study& study, const BaseModel& base, const Request& request) {
+  return Search(study, base, request).run();
+}
 
 }  // namespace crane::diagnosis

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "crane/diagnosis/diagnosis.hpp"
-#include "study/study.hpp"
+#include "study/own_noise.hpp"
 
 namespace crane::diagnosis {
 
@@ -20,8 +20,8 @@ struct Hypotheses {
 };
 
 /// Forward search from the base model: at every size the likeliest hypotheses are extended by their strongest
-/// candidates (beam search). Afterwards the study is whitened with the noise of the best hypothesis.
-/// @pre study.learn_disturbance()
-[[nodiscard]] Hypotheses searched(Study& study, const Request& request);
+/// candidates (beam search).
+/// @return the base model is evaluated in the noise of the best hypothesis
+[[nodiscard]] Hypotheses searched(const Study& study, const BaseModel& base, const Request& request);
 
 }  // namespace crane::diagnosis

@@ -15,15 +15,15 @@ std::size_t window_of(const std::vector<Window>& windows, const Piece& piece) {
 
 }  // namespace
 
-void EquationError::learn_disturbance(const Replays& crane) {
-  axes_.clear();
+EquationError::EquationError(const Problem& drive, const Replays& crane) : drive_(drive) {
   if (drive_.empty()) return;
   for (const Output axis : drive_.outputs()) axes_.push_back(pieces_of(drive_.runs(), crane, axis));
   find_windows();
 }
 
-void EquationError::whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane) {
-  axes_.clear();
+EquationError::EquationError(const Problem& drive, const std::vector<Disturbance>& disturbances,
+                             const Replays& crane)
+    : drive_(drive) {
   if (drive_.empty()) return;
   for (std::size_t i = 0; i < disturbances.size(); ++i)
     axes_.push_back(pieces_of(drive_.runs(), crane, drive_.outputs()[i], disturbances[i]));
@@ -44,7 +44,6 @@ std::vector<Disturbance> EquationError::disturbances_of(const Replays& crane) co
 }
 
 void EquationError::find_windows() {
-  windows_.clear();
   for (const Pieces& axis : axes_)
     for (const Piece& piece : axis.all) windows_.push_back(window_of(drive_.windows(), piece));
 }

@@ -5,15 +5,15 @@
 
 namespace crane::diagnosis {
 
+/// Immutable.
 class EquationError {
  public:
-  /// @param drive  problem of the same runs; must outlive this object
+  /// Without pieces. @param drive  problem of the same runs; must outlive this object
   explicit EquationError(const Problem& drive) : drive_(drive) {}
-
-  /// Learns the disturbance of each axis from the residual of `crane`; residuals are whitened with it.
-  void learn_disturbance(const Replays& crane);
-  /// Sets the disturbances for whitening, by output of the drives. @param crane  any crane on these runs
-  void whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane);
+  /// Whitened with the disturbance of each axis that the residual of `crane` contains.
+  EquationError(const Problem& drive, const Replays& crane);
+  /// Whitened with these disturbances, by output of the drives. @param crane  any crane on these runs
+  EquationError(const Problem& drive, const std::vector<Disturbance>& disturbances, const Replays& crane);
   [[nodiscard]] std::vector<Disturbance> disturbances() const;
   /// Disturbances of the residual of `crane`, by output of the drives.
   [[nodiscard]] std::vector<Disturbance> disturbances_of(const Replays& crane) const;

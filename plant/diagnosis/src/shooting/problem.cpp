@@ -71,13 +71,7 @@ std::vector<std::vector<VectorXd>> Problem::residuals(const Fits& fits) const {
   return result;
 }
 
-void Problem::whiten_with(std::vector<Disturbance> disturbances) {
-  // No disturbance was learnt, because no window determines a start: nothing is compared.
-  if (disturbances.size() != outputs_.size()) {
-    windows_.clear();
-    for (std::vector<WindowMotion>& of_output : motions_) of_output.clear();
-    return;
-  }
+void Problem::set_disturbances(std::vector<Disturbance> disturbances) {
   disturbances_ = std::move(disturbances);
   whiteners_.assign(outputs_.size(), {});
   for (std::size_t output = 0; output < outputs_.size(); ++output)
@@ -85,17 +79,23 @@ void Problem::whiten_with(std::vector<Disturbance> disturbances) {
       whiteners_[output].emplace_back(disturbances_[output], motion);
 }
 
-void Problem::learn_disturbance(const Replays& crane) {
-  disturbances_.clear();
-  // From the second round on, the starts are estimated with the noise model of the round before.
-  for (int round = 0; round < kLearningRounds; ++round) {
-    const std::vector<std::vector<VectorXd>> plain = residuals(fit(crane));
-    std::vector<Disturbance> learned;
-    for (std::size_t output = 0; output < outputs_.size(); ++output)
-      learned.push_back(learn(plain[output], motions_[output], least_noise_of(runs_, outputs_[output]),
-                              disturbances_.empty() ? Disturbance{} : disturbances_[output]));
-    whiten_with(std::move(learned));
+Problem Problem::whitened_with(std::vector<Disturbance> disturbances) const {
+  Problem whitened = *this;
+  if (disturbances.size() == outputs_.size()) {
+    whitened.set_disturbances(std::move(disturbances));
+  } else {
+    whitened.windows_.clear();
+    for (std::vector<WindowMotion>& of_output : whitened.motions_) of_output.clear();
   }
+  return whitened;
+}
+
+Problem Problem::whitened_by(const Replays& crane) const {
+  Problem whitened = plain();
+  // From the second round on, the starts are estimated with the noise model of the round before.
+  for (int round = 0; round < kLearningRounds; ++round)
+    whitened.set_disturbances(whitened.disturbances_of(whitened.fit(crane), whitened.disturbances_));
+  return whitened;
 }
 
 std::vector<Disturbance> Problem::disturbances_of(const Fits& fits,

@@ -30,7 +30,7 @@ using Fits = std::vector<WindowFit>;
 /// Window length: a whole run is one window.
 inline constexpr double kWholeRun = std::numeric_limits<double>::infinity();
 
-/// A crane is passed as its replays on the problem's runs.
+/// A crane is passed as its replays on the problem's runs. Immutable.
 class Problem {
  public:
   /// @param window_s approximate length: runs are divided into equal parts
@@ -43,14 +43,15 @@ class Problem {
   [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
   [[nodiscard]] const Runs& runs() const { return runs_; }
 
-  /// Learns the disturbance of each output from the residuals of a crane, and whitens with it.
-  void learn_disturbance(const Replays& crane);
+  /// The same problem, whitened with the disturbances of the residuals of a crane.
+  [[nodiscard]] Problem whitened_by(const Replays& crane) const;
   /// Disturbances of the residuals of `fits`, by output. @param near disturbances of similar residuals, with
   /// which the search begins; empty: none are known
   [[nodiscard]] std::vector<Disturbance> disturbances_of(const Fits& fits,
                                                          const std::vector<Disturbance>& near = {}) const;
-  /// Whitens with these, by output.
-  void whiten_with(std::vector<Disturbance> disturbances);
+  /// The same problem, whitened with these disturbances. Without one disturbance for each output, the problem
+  /// is empty: no start of a window was determined, and nothing is compared.
+  [[nodiscard]] Problem whitened_with(std::vector<Disturbance> disturbances) const;
   [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
     return whiteners_[output][window];
   }
@@ -69,12 +70,12 @@ class Problem {
   /// Like fit(), but the iteration begins at the starts of `near`: a fit with other noise or similar
   /// parameters.
   [[nodiscard]] Fits fit_again(const Replays& crane, const Fits& near) const;
-  /// Like fit_again(), with the slopes of the starts of `near`, a similar crane. If `near` has other
-  /// coordinates, like fit().
+  /// Like fit_again(), but reuses the slopes with respect to the starts in `near`, the fits of a similar
+  /// crane. If that crane has other coordinates, like fit().
   [[nodiscard]] Fits fit_near(const Replays& crane, const Fits& near) const;
   /// Slopes: (outputs of crane - at) / step, whitened, start marginal; also the start of coordinates that
   /// only `crane` has.
-  /// @param own receives the decrease of the loss by the start of such coordinates alone
+  /// @param own receives the decrease of the loss by the start of these coordinates without any other change
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane, const Fits& at, double step,
                                                     double* own = nullptr) const;
   /// Slopes that do not depend on the noise: (outputs of crane - at) / step, from the same starts.
@@ -86,7 +87,7 @@ class Problem {
   /// Whitens plain slopes, start marginal. Slopes that are empty stay empty.
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> whitened(
       const std::vector<std::vector<Eigen::VectorXd>>& plain_slopes, const Fits& at) const;
-  /// This problem without whitening: its starts minimise the error in m or rad.
+  /// The same problem without whitening: its starts minimise the error in m or rad.
   [[nodiscard]] Problem plain() const;
   /// Measured rows of a window, outputs one after the other. Rows without a measurement are 0, in the
   /// simulation too: their residual is 0.
@@ -103,6 +104,7 @@ class Problem {
   [[nodiscard]] std::vector<double> squares_changed(const Replays& crane, const Fits& at) const;
 
  private:
+  void set_disturbances(std::vector<Disturbance> disturbances);
   /// Residuals [output][window], not whitened, at the starts of `fits`.
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Fits& fits) const;
   /// Size of the start without inner coordinates.

@@ -1,33 +1,12 @@
 #pragma once
 /// Scores by block. Blocks are the units of resampling.
-#include <algorithm>
-#include <utility>
+#include <Eigen/Dense>
+#include <vector>
 
-#include "study/study.hpp"
+#include "robust.hpp"
+#include "study/hypothesis.hpp"
 
 namespace crane::diagnosis {
-
-/// Slopes: changes of the outputs per unit, whitened or plain, by value of the effects and by window or
-/// piece. Empty where the effect is not visible.
-struct Study::Slopes {
-  std::vector<PartVectors> drive, equation_error, load;
-
-  void push_back(PlainSlope slope) {
-    drive.push_back(std::move(slope.drive));
-    equation_error.push_back(std::move(slope.equation_error));
-    load.push_back(std::move(slope.load));
-  }
-  [[nodiscard]] PlainSlope of_value(std::size_t i) const { return {drive[i], equation_error[i], load[i]}; }
-  /// Appends the slopes of `more`.
-  void append(Slopes more) {
-    for (std::size_t i = 0; i < more.drive.size(); ++i)
-      push_back({std::move(more.drive[i]), std::move(more.equation_error[i]), std::move(more.load[i])});
-  }
-  /// Drops the slopes of all but the first values.
-  void keep_first(std::size_t values) {
-    for (auto* of : {&drive, &equation_error, &load}) of->resize(std::min(of->size(), values));
-  }
-};
 
 /// Scores of a set of directions.
 struct BlockScores {
@@ -49,13 +28,17 @@ void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Eigen:
 [[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);
 
 /// Increase of the loss of each block b when the fit omits the block, to first order in the change of the
-/// parameters: 2 g_b' (H - H_b)^-1 g_b. With H it would be the infinitesimal jackknife. The sum is the
+/// parameters: 2 g_b' (H - H_b)^-1 g_b. With H instead of
+/// H - H_b, the term would be that of the infinitesimal jackknife. The sum is the
 /// penalty of K. Takeuchi, Suri-Kagaku 153 (1976) 12, with leverage.
 [[nodiscard]] Blocks left_out(const BlockScores& at);
 /// By block: number of the blocks after it, in its run, that begin within `time_s` of its end, rounded.
 [[nodiscard]] std::vector<std::size_t> followers_within(const Problem& problem, double time_s);
 /// Sum of ln f of the innovations, by block.
 [[nodiscard]] Blocks log_variances_of(const Problem& problem);
+
+/// Loss of each block.
+[[nodiscard]] Blocks blocks_of(const Problem& problem, const Fits& fits);
 
 /// Solves h x = g. A small ridge keeps h regular when two directions have the same effect.
 [[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixXd& h, const Eigen::VectorXd& g);

@@ -172,7 +172,7 @@ class Builder {
                              free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05),
                              free_parameter("backlash", "known_guide_share", 0, 1, 0.1)},
                             settings);
-    gap.parameters.back().at_a_bound = true;
+    gap.parameters.back().often_at_bound = true;
     for (const double width : gaps)
       for (const double guide : {0.1, 0.3, 0.8})
         for (const double of_axis : {0.2, 0.4, 0.65}) gap.rough_starts.push_back({width, guide, of_axis, 1});

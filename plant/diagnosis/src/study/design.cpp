@@ -6,6 +6,7 @@
 #include "quantile.hpp"
 #include "rules.hpp"
 #include "study/blocks.hpp"
+#include "study/score.hpp"
 
 namespace crane::diagnosis {
 namespace {

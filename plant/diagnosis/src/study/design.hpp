@@ -10,7 +10,6 @@
 
 namespace crane::diagnosis {
 
-class Study;
 struct Score;
 struct BlockScores;
 

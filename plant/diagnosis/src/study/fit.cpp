@@ -1,10 +1,11 @@
+#include "study/fit.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "parallel.hpp"
-#include "study/blocks.hpp"
+#include "study/block_std_dev.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -18,8 +19,7 @@ constexpr int kMostRounds = 12;  // of Gauss-Newton
 /// before. kFewAttempts applies to the values of one effect alone, and while the loss exceeds `loss_to_beat`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
-/// Study::kLeastGain for the values of a verdict, which are then within 0.1 standard deviations of the
-/// minimum.
+/// kLeastGain for the values of a verdict, which are then within 0.1 standard deviations of the minimum.
 constexpr double kLeastGainOfVerdict = 0.01;
 /// The same for the sum of squares: the larger of a number of noise variances and a share of the sum.
 constexpr double kLeastGainOfSquares = 3, kLeastShareOfSquares = 1e-4;
@@ -121,63 +121,8 @@ double total_loss(const Evaluation& at, Loss loss) {
   return sum;
 }
 
-}  // namespace
-
-bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, Slopes& along, std::size_t apart,
-                    double least_gain) const {
-  double damping = kFirstDamping, least = total_loss(best.train, loss);
-  const double enough =
-      loss == Loss::robust ? least_gain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
-  std::optional<Slopes> here;  // `along`, whitened
-  for (int round = 0; round < kMostRounds; ++round) {
-    if (!here) {
-      along = plain_slopes(best.effects, best.train, std::move(along));
-      here = whitened(along, best.train);
-    }
-    const BlockScores both = block_scores(best.train, *here, loss);
-    if (round >= kLeastRounds && std::isfinite(loss_to_beat)) {
-      const double decrease =
-          largest_predicted_decrease(loss == Loss::robust ? both : block_scores(best.train, *here));
-      if (best.train.loss - kDecreaseMargin * decrease > loss_to_beat) return false;
-    }
-    const VectorXd gradient = both.gradient();
-    const Flat flat = flatten(best.effects);
-    double gained = 0;
-    bool as_predicted = true;
-    const auto groups = step_groups(best.effects, apart);
-    if (predicted_decrease_of(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) <
-        kWorthAStep * enough)
-      break;
-    for (std::size_t group = 0; group < groups.size() && gained < enough; ++group) {
-      const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
-      bool moves = false;
-      for (int attempt = 0; attempt < attempts && !moves; ++attempt) {
-        const VectorXd step = bounded_step(both.curvature, gradient, flat, damping, groups[group]);
-        if (!step.allFinite() || step.norm() == 0) break;
-        const Effects tried = moved(best.effects, step);
-        Evaluation found = evaluate(train_, tried, best.train);
-        const double now = total_loss(found, loss), decrease = predicted_decrease_of(both, step);
-        as_predicted = as_predicted && std::abs(least - now - decrease) <= kAsPredicted * decrease;
-        if (now < least) {
-          moves = true;
-          gained += least - now;
-          least = now;
-          best.effects = tried;
-          best.train = std::move(found);
-          damping = std::max(1e-6, damping * 0.2);
-        } else {
-          damping = std::max(damping, 1e-4) * 8;
-        }
-      }
-      if (gained < enough) damping = kFirstDamping;
-    }
-    if (gained < enough) break;  // converged
-    if (!as_predicted) along = {}, here.reset();
-  }
-  return true;
-}
-
-void Study::step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds) const {
+/// Pattern search with decreasing steps. @param hold_bounds  parameters that are usually at a bound stay
+void step_around(const WhitenedData& data, Fitted& best, double Evaluation::*loss, bool hold_bounds) {
   const Flat from = flatten(best.effects);
   VectorXd values = from.values, steps(values.size());
   for (Index i = 0; i < steps.size(); ++i)
@@ -185,13 +130,13 @@ void Study::step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds
         std::max(kFirstStep * std::abs(values[i]), 0.5 * from.parameters[static_cast<std::size_t>(i)]->step);
   if (hold_bounds)
     for (Index i = 0; i < steps.size(); ++i)
-      if (from.parameters[static_cast<std::size_t>(i)]->at_a_bound) steps[i] = 0;
+      if (from.parameters[static_cast<std::size_t>(i)]->often_at_bound) steps[i] = 0;
   const VectorXd least = kLastStep * steps;
   const auto better = [&](const VectorXd& step) {
     Fitted tried;
     tried.effects = moved(best.effects, step);
     if (same_values(tried.effects, best.effects)) return false;
-    tried.train = evaluate(train_, tried.effects, best.train);
+    tried.train = data.evaluated(tried.effects, best.train);
     if (tried.train.*loss >= best.train.*loss - kLeastGain) return false;
     best = std::move(tried);
     values = flatten(best.effects).values;
@@ -213,79 +158,127 @@ void Study::step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds
   }
 }
 
-Effects Study::search_around(const Effects& effects, const Evaluation& near) const {
+/// Initial values of one effect with a rough loss: the best of its rough_starts and of a pattern search by
+/// the loss of the load; from there a pattern search by the whole loss, with each parameter that is usually
+/// at a bound held at both.
+Effects search_around(const WhitenedData& data, const Effects& effects, const Evaluation& near) {
   Fitted best;
   best.effects = effects;
-  best.train = train(effects, near);
-  if (!train_.load.empty()) step_around(best, &Evaluation::load_loss, true);
+  best.train = data.evaluated(effects, near);
+  if (!data.load().empty()) step_around(data, best, &Evaluation::load_loss, true);
   const Candidate* candidate = effects[0].candidate;
   std::vector<Fitted> others(candidate->rough_starts.size());
   parallel_for(others.size(), [&](std::size_t i) {
     others[i].effects = {{candidate, candidate->rough_starts[i]}};
-    others[i].train = train(others[i].effects, near);
+    others[i].train = data.evaluated(others[i].effects, near);
   });
   for (Fitted& other : others)
     if (other.train.loss < best.train.loss) best = std::move(other);
   const Fitted start = best;
   const std::vector<FreeParameter>& parameters = candidate->parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].at_a_bound) continue;
+    if (!parameters[i].often_at_bound) continue;
     best.train.loss = std::numeric_limits<double>::infinity();
     for (const double bound : {parameters[i].low, parameters[i].high}) {
       Fitted held = start;
       held.effects[0].values[i] = bound;
-      held.train = evaluate(train_, held.effects, start.train);
-      step_around(held, &Evaluation::loss, true);
+      held.train = data.evaluated(held.effects, start.train);
+      step_around(data, held, &Evaluation::loss, true);
       if (held.train.loss < best.train.loss) best = std::move(held);
     }
   }
   return best.effects;
 }
 
-Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
-  const Effects from = needs_pattern_search(effects) ? search_around(effects, near.train) : effects;
-  Fitted fitted = fit(from, near.train.loss - kLeastGain, near.train);
-  fitted.error = errors_of(fitted.train);
-  fitted.first_nuisance = nuisance_of(fitted, near.first_nuisance);
-  for (const auto* of :
-       {&fitted.first_nuisance.drive, &fitted.first_nuisance.equation_error, &fitted.first_nuisance.load})
-    for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
-  return fitted;
+}  // namespace
+
+bool descend(const WhitenedData& data, Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
+             std::size_t apart, double least_gain) {
+  double damping = kFirstDamping, least = total_loss(best.train, loss);
+  const double enough =
+      loss == Loss::robust ? least_gain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
+  std::optional<Slopes> here;  // `along`, whitened
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!here) {
+      along = data.plain_slopes(best.effects, best.train, std::move(along));
+      here = data.whitened(along, best.train);
+    }
+    const BlockScores both = data.scores(best.train, *here, loss);
+    if (round >= kLeastRounds && std::isfinite(loss_to_beat)) {
+      const double decrease =
+          largest_predicted_decrease(loss == Loss::robust ? both : data.scores(best.train, *here));
+      if (best.train.loss - kDecreaseMargin * decrease > loss_to_beat) return false;
+    }
+    const VectorXd gradient = both.gradient();
+    const Flat flat = flatten(best.effects);
+    double gained = 0;
+    bool as_predicted = true;
+    const auto groups = step_groups(best.effects, apart);
+    if (predicted_decrease_of(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) <
+        kWorthAStep * enough)
+      break;
+    for (std::size_t group = 0; group < groups.size() && gained < enough; ++group) {
+      const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
+      bool moves = false;
+      for (int attempt = 0; attempt < attempts && !moves; ++attempt) {
+        const VectorXd step = bounded_step(both.curvature, gradient, flat, damping, groups[group]);
+        if (!step.allFinite() || step.norm() == 0) break;
+        const Effects tried = moved(best.effects, step);
+        Evaluation found = data.evaluated(tried, best.train);
+        const double now = total_loss(found, loss), decrease = predicted_decrease_of(both, step);
+        as_predicted = as_predicted && std::abs(least - now - decrease) <= kAsPredicted * decrease;
+        if (now < least) {
+          moves = true;
+          gained += least - now;
+          least = now;
+          best.effects = tried;
+          best.train = std::move(found);
+          damping = std::max(1e-6, damping * 0.2);
+        } else {
+          damping = std::max(damping, 1e-4) * 8;
+        }
+      }
+      if (gained < enough) damping = kFirstDamping;
+    }
+    if (gained < enough) break;  // converged
+    if (!as_predicted) along = {}, here.reset();
+  }
+  return true;
 }
 
-Fitted Study::fit(Effects effects, double loss_to_beat) const {
-  return fit(std::move(effects), loss_to_beat, base_train_);
+Effects initial_values(const WhitenedData& data, const Effects& effects, const Evaluation& near) {
+  return needs_pattern_search(effects) ? search_around(data, effects, near) : effects;
 }
 
-Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near) const {
-  Slopes along;
-  return fit(std::move(effects), loss_to_beat, near, along);
-}
-
-Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near, Slopes& along) const {
+Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat, const Evaluation& near,
+           Slopes& along) {
   Fitted start;
   start.effects = std::move(effects);
-  start.train = train(start.effects, near);
+  start.train = data.evaluated(start.effects, near);
   Fitted best = start;
-  if (needs_pattern_search(best.effects)) step_around(best, &Evaluation::loss, false);
+  if (needs_pattern_search(best.effects)) step_around(data, best, &Evaluation::loss, false);
   if (!same_values(start.effects, best.effects)) along = {};
   along.keep_first(static_cast<std::size_t>(flatten(best.effects).values.size()));
   start = best;
-  const bool can_beat = descend(best, Loss::squares, loss_to_beat, along, best.effects.size());
+  const bool can_beat = descend(data, best, Loss::squares, loss_to_beat, along, best.effects.size());
   if (start.train.loss < best.train.loss) best = start, along = {};
-  if (can_beat) descend(best, Loss::robust, loss_to_beat, along, best.effects.size());
-  along = plain_slopes(best.effects, best.train, std::move(along));
-  estimate_uncertainty(best, whitened(along, best.train), {});
-  best.nuisance = nuisance();
+  if (can_beat) descend(data, best, Loss::robust, loss_to_beat, along, best.effects.size());
+  along = data.plain_slopes(best.effects, best.train, std::move(along));
+  set_block_std_dev(data, data.whitened(along, best.train), {}, best);
+  best.nuisance = data.nuisance();
   return best;
 }
 
-Fitted Study::converged(Fitted fitted) const {
+Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat, const Evaluation& near) {
   Slopes along;
-  descend(fitted, Loss::robust, std::numeric_limits<double>::infinity(), along, fitted.effects.size(),
-          kLeastGainOfVerdict);
-  along = plain_slopes(fitted.effects, fitted.train, std::move(along));
-  estimate_uncertainty(fitted, whitened(along, fitted.train), {});
+  return fit(data, std::move(effects), loss_to_beat, near, along);
+}
+
+Fitted converged(const WhitenedData& data, Fitted fitted) {
+  Slopes along;
+  descend(data, fitted, Loss::robust, kNothingToBeat, along, fitted.effects.size(), kLeastGainOfVerdict);
+  along = data.plain_slopes(fitted.effects, fitted.train, std::move(along));
+  set_block_std_dev(data, data.whitened(along, fitted.train), {}, fitted);
   return fitted;
 }
 

@@ -1,3 +1,5 @@
+#include "study/score.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "parallel.hpp"
 #include "replay/standstill.hpp"
 #include "replay/travel.hpp"
-#include "study/blocks.hpp"
 #include "study/design.hpp"
 #include "study/min_p.hpp"
 
@@ -83,14 +84,14 @@ Shape tight_spots_of(const Candidate& candidate, const PositionWave& wave, doubl
 
 }  // namespace
 
-std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& effects) const {
+std::vector<Shape> shapes_of(const WhitenedData& data, const Candidate& candidate, const Effects& effects) {
   std::vector<Shape> shapes = candidate.shapes;
   if (!candidate.waves && !candidate.friction_waves) return shapes;
   const Output axis = candidate.drive_output();
-  const double gain =
-      axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
-  const Replays replays = replays_of(train_.runs, with(effects));
-  const Pieces pieces = pieces_of(train_.runs, replays, axis);
+  const plant::Parameters& rig = data.study().base().parameters;
+  const double gain = axis == kTrolleyPosition ? rig.trolley_gain_mps2pv : rig.slew_gain_radps2pv;
+  const Replays replays = replays_of(data.runs(), data.with(effects));
+  const Pieces pieces = pieces_of(data.runs(), replays, axis);
   const WaveOf of = candidate.waves ? WaveOf::force : WaveOf::friction;
   const FreeParameter& length = candidate.parameters[candidate.waves ? 2 : 1];
   // On an axis at rest, the search finds waves of very short period; the bounds of the term exclude them.
@@ -100,29 +101,35 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
       shapes.push_back(
           {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
     else
-      shapes.push_back(tight_spots_of(candidate, wave, travel_of(train_.runs, axis).middle()));
+      shapes.push_back(tight_spots_of(candidate, wave, travel_of(data.runs(), axis).middle()));
   }
   return shapes;
 }
 
-std::vector<Score> Study::places(const Effects& effects, const ProbeSlopes& known) const {
-  std::vector<std::vector<Shape>> shapes(candidates_.size());
-  parallel_for(candidates_.size(), [&](std::size_t c) {
-    if (std::ranges::any_of(effects, [&](const Effect& e) { return e.candidate == &candidates_[c]; })) return;
+namespace {
+
+/// Every shape of every candidate that is not among the effects. Beside effects, a cause that adds a
+/// natural frequency has the shape that was the strongest one for the base model.
+std::vector<Score> places_of(const WhitenedData& data, const Effects& effects, const ProbeSlopes& known) {
+  const std::vector<Candidate>& candidates = data.study().candidates();
+  std::vector<std::vector<Shape>> shapes(candidates.size());
+  parallel_for(candidates.size(), [&](std::size_t c) {
+    if (std::ranges::any_of(effects, [&](const Effect& e) { return e.candidate == &candidates[c]; })) return;
     // The score of a shape that rings needs an estimate of the starts of its inner coordinates.
     const Shape* strongest =
-        candidates_[c].ringing_starts_at && !effects.empty() ? known.strongest(c) : nullptr;
-    shapes[c] = strongest != nullptr ? std::vector{*strongest} : shapes_of(candidates_[c], effects);
+        candidates[c].ringing_starts_at && !effects.empty() ? known.strongest(c) : nullptr;
+    shapes[c] = strongest != nullptr ? std::vector{*strongest} : shapes_of(data, candidates[c], effects);
   });
   std::vector<Score> all;
-  for (std::size_t c = 0; c < candidates_.size(); ++c)
+  for (std::size_t c = 0; c < candidates.size(); ++c)
     for (Shape& shape : shapes[c])
       all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}, .starts = {}});
   return all;
 }
 
 /// What all probes of a score test have in common.
-struct Study::Probing {
+struct Probing {
+  const WhitenedData& data;
   const Effects& effects;
   const Evaluation& at;
   PartVectors unmoved;  ///< plain residuals of the equation error of `at`
@@ -130,25 +137,33 @@ struct Study::Probing {
   const ProbeSlopes& known;
 };
 
-double Study::add_ringing(const Replays& crane, const Evaluation& at, double step, ShowsIn parts,
-                          Slopes& slopes) const {
+/// Appends the slopes of a probe with inner coordinates that the crane of `at` does not have, and whose
+/// starts are free. @return decrease of the loss by these starts
+double add_ringing(const WhitenedData& data, const Replays& crane, const Evaluation& at, double step,
+                   ShowsIn parts, Slopes& slopes) {
+  const Problem &drive = data.drive(), &load = data.load();
+  const EquationError& equation_error = data.body().equation_error;
   double of_drive = 0, of_load = 0;
-  const bool in_drive = parts.drive && !train_.drive.empty();
-  const bool in_load = parts.load && !train_.load.empty();
-  slopes.drive.push_back(in_drive ? train_.drive.change(crane, at.drive, step, &of_drive) : PartVectors{});
-  slopes.equation_error.push_back(in_drive ? train_.equation_error.change(crane, at.equation_error, step)
+  const bool in_drive = parts.drive && !drive.empty();
+  const bool in_load = parts.load && !load.empty();
+  slopes.drive.push_back(in_drive ? drive.change(crane, at.drive, step, &of_drive) : PartVectors{});
+  slopes.equation_error.push_back(in_drive ? equation_error.change(crane, at.equation_error, step)
                                            : PartVectors{});
-  slopes.load.push_back(in_load ? train_.load.change(crane, at.load, step, &of_load) : PartVectors{});
+  slopes.load.push_back(in_load ? load.change(crane, at.load, step, &of_load) : PartVectors{});
   return of_drive + of_load;
 }
 
-double Study::add_probes(const Probing& probing, const Score& place, Slopes& slopes,
-                         std::vector<ProbeSlopes::Known>& fresh) const {
+/// Appends the changes of the residuals by the probes of a candidate's shape.
+/// @param fresh  receives slopes that were not known
+/// @return decrease of the loss by free starts of the inner coordinates of the candidate
+double add_probes(const Probing& probing, const Score& place, Slopes& slopes,
+                  std::vector<ProbeSlopes::Known>& fresh) {
+  const WhitenedData& data = probing.data;
   double own = 0;
   const Shape& shape = place.shape;
-  const Candidate& candidate = candidates_[place.candidate];
+  const Candidate& candidate = data.study().candidates()[place.candidate];
   // A probe far from zero describes a rough effect in the load but not in the drives.
-  const ShowsIn parts{candidate.drive && (!candidate.rough || train_.load.empty()), candidate.load};
+  const ShowsIn parts{candidate.drive && (!candidate.rough || data.load().empty()), candidate.load};
   const Evaluation& at = probing.at;
   Slopes plain;
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
@@ -158,15 +173,15 @@ double Study::add_probes(const Probing& probing, const Score& place, Slopes& slo
     const ShowsIn missing{parts.drive && !drive_known, parts.load && !load_known};
     PlainSlope slope;
     if (missing.drive || missing.load) {
-      Crane crane = with(probing.effects);
+      Crane crane = data.with(probing.effects);
       crane.terms.push_back(shape.probes[p]);
-      const Replays replays = replays_of(train_.runs, holding(crane));
-      if (train_.drive.has_other_coordinates(replays, at.drive) ||
-          train_.load.has_other_coordinates(replays, at.load)) {
-        own += add_ringing(replays, at, shape.amounts[p], parts, slopes);
+      const Replays replays = replays_of(data.runs(), holding(crane));
+      if (data.drive().has_other_coordinates(replays, at.drive) ||
+          data.load().has_other_coordinates(replays, at.load)) {
+        own += add_ringing(data, replays, at, shape.amounts[p], parts, slopes);
         continue;
       }
-      slope = plain_slope(replays, at, shape.amounts[p], missing, probing.unmoved);
+      slope = data.plain_slope(replays, at, shape.amounts[p], missing, probing.unmoved);
     }
     ProbeSlopes::Known& now = fresh.emplace_back(ProbeSlopes::Known{shape.probes[p], {}, {}});
     if (missing.drive && !probing.unlike_base.drive)
@@ -177,12 +192,13 @@ double Study::add_probes(const Probing& probing, const Score& place, Slopes& slo
     if (parts.load && load_known) slope.load = *known->load;
     plain.push_back(std::move(slope));
   }
-  slopes.append(whitened(plain, at));
+  slopes.append(data.whitened(plain, at));
   return own;
 }
 
-std::vector<Visibility> Study::excitation(const std::vector<Score>& places, const std::vector<Slopes>& slopes,
-                                          const Evaluation& at) const {
+/// Smallest visible amount of each candidate. @param slopes  by place, of its probes
+std::vector<Visibility> excitation(const WhitenedData& data, const std::vector<Score>& places,
+                                   const std::vector<Slopes>& slopes, const Evaluation& at) {
   std::vector<std::vector<double>> information;
   for (const Slopes& of_place : slopes) {
     std::vector<double>& own = information.emplace_back(of_place.drive.size(), 0.0);
@@ -198,25 +214,32 @@ std::vector<Visibility> Study::excitation(const std::vector<Score>& places, cons
     all.equation_error.push_back(slopes[d.place].equation_error[d.probe]);
     all.load.push_back(slopes[d.place].load[d.probe]);
   }
-  return visibility_of(candidates_, places, directions, block_scores(at, all));
+  return visibility_of(data.study().candidates(), places, directions, data.scores(at, all));
 }
 
-ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed,
-                        ProbeSlopes& probe_slopes) const {
-  std::vector<Score> scores = places(effects, probe_slopes);
-  const Slopes known = slopes(effects, at);
-  const Probing probing{effects, at,
-                        train_.equation_error.plain_residuals(replays_of(train_.runs, with(effects))),
-                        unlike_base(effects, at), probe_slopes};
+}  // namespace
+
+ScoreTable score_test(const WhitenedData& data, const Effects& effects, const Evaluation& at,
+                      std::uint64_t seed, ProbeSlopes& probe_slopes) {
+  const std::vector<Candidate>& candidates = data.study().candidates();
+  std::vector<Score> scores = places_of(data, effects, probe_slopes);
+  const Slopes known = data.whitened(data.plain_slopes(effects, at), at);
+  const Probing probing{
+      data,
+      effects,
+      at,
+      data.body().equation_error.plain_residuals(replays_of(data.runs(), data.with(effects))),
+      unlike(data.body(), effects, at, probe_slopes.base()),
+      probe_slopes};
   std::vector<std::vector<ProbeSlopes::Known>> fresh(scores.size());
   std::vector<Directions> directions(scores.size());
   std::vector<Slopes> kept(effects.empty() ? scores.size() : 0);
   parallel_for(scores.size(), [&](std::size_t i) {
     Slopes all = known;
     const double own = add_probes(probing, scores[i], all, fresh[i]);
-    const auto own_directions = static_cast<Index>(all.drive.size() - known.drive.size());
-    directions[i] = beside_known(block_scores(at, all), own_directions);
-    const Candidate& candidate = candidates_[scores[i].candidate];
+    const auto own_directions = static_cast<Index>(all.size() - known.size());
+    directions[i] = beside_known(data.scores(at, all), own_directions);
+    const Candidate& candidate = candidates[scores[i].candidate];
     const bool large_probe = scores[i].shape.large_probe;
     directions[i].one_sided = candidate.one_sided || large_probe;
     judge(directions[i], scores[i]);
@@ -231,14 +254,15 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
   for (std::size_t i = 0; i < scores.size(); ++i)
     for (ProbeSlopes::Known& of_probe : fresh[i]) probe_slopes.keep(scores[i].candidate, std::move(of_probe));
   ScoreTable table;
-  if (effects.empty()) table.excitation = excitation(scores, kept, at);
+  if (effects.empty()) probe_slopes.keep_base(simulation_of(at));
+  if (effects.empty()) table.excitation = excitation(data, scores, kept, at);
   double least = 1;
   for (const Score& score : scores) least = std::min(least, score.p_value);
   table.p_value = p_value_of_smallest(directions, least, seed);
   for (auto first = scores.begin(); first != scores.end();) {
     const auto end = std::find_if(first, scores.end(),
                                   [&](const Score& score) { return score.candidate != first->candidate; });
-    table.best.push_back(best_shape(candidates_[first->candidate], {first, end}));
+    table.best.push_back(best_shape(candidates[first->candidate], {first, end}));
     if (effects.empty()) probe_slopes.keep_strongest(first->candidate, table.best.back().shape);
     first = end;
   }

@@ -1,10 +1,13 @@
 #pragma once
-/// Results of the score test.
+/// Score tests of the candidates beside a hypothesis (C. R. Rao 1948; docs/diagnosis.md, 6).
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "crane/diagnosis/candidate.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
+#include "study/probe_slopes.hpp"
+#include "study/whitened_data.hpp"
 
 namespace crane::diagnosis {
 
@@ -26,5 +29,13 @@ struct ScoreTable {
   std::vector<Visibility> excitation;  ///< of each effect in these data; only for the base model
   double p_value = 1;                  ///< of the most significant candidate, by flipping signs of blocks
 };
+
+/// Tests every further candidate on the residuals `at`. @param seed  of the sign flips
+/// @param known  slopes of earlier tests; receives those of this one
+[[nodiscard]] ScoreTable score_test(const WhitenedData& data, const Effects& effects, const Evaluation& at,
+                                    std::uint64_t seed, ProbeSlopes& known);
+/// Shapes of a candidate. For a wave: the strongest lines of the missing force beside the effects.
+[[nodiscard]] std::vector<Shape> shapes_of(const WhitenedData& data, const Candidate& candidate,
+                                           const Effects& effects);
 
 }  // namespace crane::diagnosis

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/blocks.hpp"
-
 namespace crane::diagnosis {
 namespace {
 
@@ -33,15 +31,15 @@ struct Determined {
 constexpr double kCorrelationTimes = 2;
 
 /// By block of the drives, then of the load.
-std::vector<std::size_t> followers_of(const Study& study, const Nuisance& nuisance) {
+std::vector<std::size_t> followers_of(const WhitenedData& data, const Nuisance& nuisance) {
   const auto longest_s = [](const std::vector<Disturbance>& disturbances) {
     double time_s = 0;
     for (const Disturbance& disturbance : disturbances) time_s = std::max(time_s, disturbance.correlation_s);
     return time_s;
   };
   const double of_drive_s = std::max(longest_s(nuisance.drive), longest_s(nuisance.equation_error));
-  std::vector<std::size_t> followers = followers_within(study.drive(), kCorrelationTimes * of_drive_s);
-  const auto more = followers_within(study.load(), kCorrelationTimes * longest_s(nuisance.load));
+  std::vector<std::size_t> followers = followers_within(data.drive(), kCorrelationTimes * of_drive_s);
+  const auto more = followers_within(data.load(), kCorrelationTimes * longest_s(nuisance.load));
   followers.insert(followers.end(), more.begin(), more.end());
   return followers;
 }
@@ -97,32 +95,25 @@ BlockScores selected(const BlockScores& scores, const std::vector<Index>& column
   return some;
 }
 
-}  // namespace
+/// Error of a quantity that the fit holds constant: the column of the slope of this quantity, and the
+/// standard deviation of the error. Three kinds of quantity have such an error: the zero of a swing sensor,
+/// which is known to one count only; the masses of the drives, because the data show only the ratio of the
+/// load mass to them; an inaccuracy whose fitted value is at its bound.
+struct HeldError {
+  Index column = 0;
+  double std_dev = 0;
+};
 
-Effects Study::visible_inaccuracies_beside(const Effects& effects) const {
-  ShowsIn parts;
-  for (const Effect& effect : effects) {
-    parts.drive = parts.drive || effect.candidate->drive;
-    parts.load = parts.load || effect.candidate->load;
-  }
-  Effects beside = inaccuracies_beside(effects);
-  std::erase_if(beside, [&](const Effect& inaccuracy) {
-    return !(inaccuracy.candidate->drive && parts.drive) && !(inaccuracy.candidate->load && parts.load);
-  });
-  return beside;
-}
-
-double Study::zero_std_dev(Output swing) const { return least_noise_of(train_.runs, swing); }
-
-std::vector<Study::HeldError> Study::zero_errors(Effects& effects) const {
+/// Errors of the zeros of the swing sensors. Appends an effect for each zero that no effect describes.
+std::vector<HeldError> zero_errors(const Study& study, Effects& effects) {
   std::vector<HeldError> errors;
   for (const Output output : {kRadialSwing, kTangentialSwing}) {
-    const double std_dev = zero_std_dev(output);
+    const double std_dev = study.zero_std_dev(output);
     const auto is_offset = [output](const Candidate& c) {
       return c.cause == "swing_offset" && c.axis == axis_of(output);
     };
-    const auto candidate = std::ranges::find_if(candidates_, is_offset);
-    if (std_dev == 0 || candidate == candidates_.end()) continue;
+    const auto candidate = std::ranges::find_if(study.candidates(), is_offset);
+    if (std_dev == 0 || candidate == study.candidates().end()) continue;
     const auto effect =
         std::ranges::find_if(effects, [&](const Effect& e) { return is_offset(*e.candidate); });
     const Index column = values_of({effects.begin(), effect});
@@ -132,24 +123,28 @@ std::vector<Study::HeldError> Study::zero_errors(Effects& effects) const {
   return errors;
 }
 
-/// An error of the masses of the drives changes the estimate of the load mass by the same share. The rig file
-/// states all masses with the same accuracy.
-std::vector<Study::HeldError> Study::mass_errors(const Effects& effects) const {
-  const auto bounded = std::ranges::find(inaccurate_, "payload_mass", &Candidate::cause);
+/// Errors of the masses of the drives, if the load mass is a value of the effects: they change the estimate
+/// of the load mass by the same share. The rig file states all masses with the same accuracy.
+std::vector<HeldError> mass_errors(const Study& study, const Effects& effects) {
+  const auto bounded = std::ranges::find_if(
+      study.no_inaccuracies(), [](const Effect& e) { return e.candidate->cause == "payload_mass"; });
   const auto payload = std::ranges::find_if(
       effects, [](const Effect& e) { return e.candidate->cause == "payload_mass" && e.candidate->drive; });
-  if (bounded == inaccurate_.end() || payload == effects.end()) return {};
-  return {{values_of({effects.begin(), payload}), std::sqrt(variance_of_bounds(bounded->parameters[0]))}};
+  if (bounded == study.no_inaccuracies().end() || payload == effects.end()) return {};
+  return {{values_of({effects.begin(), payload}),
+           std::sqrt(variance_of_bounds(bounded->candidate->parameters[0]))}};
 }
 
-Uncertainty Study::uncertainty_of(const Fitted& fitted) const {
+}  // namespace
+
+Uncertainty uncertainty_of(const WhitenedData& data, const Fitted& fitted) {
   Uncertainty result;
-  const Effects beside = visible_inaccuracies_beside(fitted.effects);
+  const Effects beside = visible_beside(data.nuisance().inaccuracies, fitted.effects);
   result.effects = fitted.effects;
   result.effects.insert(result.effects.end(), beside.begin(), beside.end());
   Effects all = result.effects;
-  std::vector<HeldError> held = zero_errors(all);
-  for (const HeldError& error : mass_errors(fitted.effects)) held.push_back(error);
+  std::vector<HeldError> held = zero_errors(data.study(), all);
+  for (const HeldError& error : mass_errors(data.study(), fitted.effects)) held.push_back(error);
   const Index own_values = values_of(fitted.effects), values = values_of(result.effects);
   Determined free;
   std::vector<double> prior(static_cast<std::size_t>(own_values), 0.0);
@@ -167,13 +162,14 @@ Uncertainty Study::uncertainty_of(const Fitted& fitted) const {
       }
     }
   free.prior = Eigen::Map<const VectorXd>(prior.data(), static_cast<Index>(prior.size()));
-  const BlockScores of_all = block_scores(fitted.train, slopes(all, fitted.train));
+  const BlockScores of_all =
+      data.scores(fitted.train, data.whitened(data.plain_slopes(all, fitted.train), fitted.train));
   const BlockScores at = selected(of_all, free.columns);
   MatrixXd information = kCurvaturePerWeight * at.curvature;
   information.diagonal() += free.prior;
   const MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd changes = jackknife(at, free.prior);
-  const std::vector<std::size_t> followers = followers_of(*this, fitted.nuisance);
+  const std::vector<std::size_t> followers = followers_of(data, fitted.nuisance);
   const double blocks = static_cast<double>(changes.rows());
   Index i = 0;
   for (const Effect& effect : fitted.effects)

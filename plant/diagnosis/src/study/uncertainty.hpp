@@ -1,6 +1,6 @@
 #pragma once
 /// Uncertainty of the values of a fit, marginal over the inaccuracies of the rig file.
-#include "study/study.hpp"
+#include "study/whitened_data.hpp"
 
 namespace crane::diagnosis {
 
@@ -26,13 +26,7 @@ struct Uncertainty {
   std::vector<ValueUncertainty> values;  ///< of the effects of the fit
 };
 
-/// Error of a quantity that the fit holds constant: the column of the slope of this quantity, and the
-/// standard deviation of the error. Three kinds of quantity have such an error: the zero of a swing sensor,
-/// which is known to one count only; the masses of the drives, because the data show only the ratio of the
-/// load mass to them; an inaccuracy whose fitted value is at its bound.
-struct Study::HeldError {
-  Eigen::Index column = 0;
-  double std_dev = 0;
-};
+/// @param data in the noise of the fit
+[[nodiscard]] Uncertainty uncertainty_of(const WhitenedData& data, const Fitted& fitted);
 
 }  // namespace crane::diagnosis

@@ -4,7 +4,8 @@
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "experiment/next_experiment.hpp"
-#include "study/study.hpp"
+#include "study/own_noise.hpp"
+#include "study/score.hpp"
 #include "verdict/excitation.hpp"
 
 namespace crane::diagnosis {
@@ -61,14 +62,14 @@ Check check(const configuration::Rig& rig, std::vector<Run> train, const Request
   Runs runs = prepared(std::move(train), rig, request.accuracy), none;
   require_excitation(runs, none, rig);
   hold_resting_drives(runs, none);
-  Study study(rig, runs, none, request.excluded, request.accuracy);
+  const Study study(rig, runs, none, request.excluded, request.accuracy);
   request.progress(0.1, "noise and disturbance");
-  study.learn_disturbance();
+  const WhitenedData data(study, learnt_base_model(study).calibrated);
   request.progress(0.3, "what the data show");
   Check result;
   ProbeSlopes slopes;
-  result.excitation = study.score({}, study.base_train(), request.seed, slopes).excitation;
-  const Disturbances disturbances = disturbances_of(study);
+  result.excitation = score_test(data, {}, data.base(), request.seed, slopes).excitation;
+  const Disturbances disturbances = disturbances_of(data);
   std::size_t proposals = 0;
   for (const auto& [a, b] : questions(result.excitation)) {
     if (proposals++ >= kProposals) break;

@@ -69,8 +69,8 @@ struct Data {
 /// or if training and held-out data together are not significant and the held-out likelihood decreases no
 /// more than superfluous values cause. Otherwise the error has another cause.
 /// @param best the unproven fit, with its intervals
-bool nothing_wrong(Study& study, const Hypotheses& found, const StatedAccuracy& accuracy, const Fitted& best,
-                   const Proof& proof, const HeldOut& held_out, std::uint64_t seed) {
+bool nothing_wrong(const Study& study, const Hypotheses& found, const StatedAccuracy& accuracy,
+                   const Fitted& best, const Proof& proof, const HeldOut& held_out, std::uint64_t seed) {
   const std::size_t candidates = study.candidates().size();
   const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
   const bool insignificant_effect =
@@ -78,41 +78,39 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const StatedAccuracy& 
       (insignificant(likelihood_ratio_p_value(found.best, found.base, held_out.nats), candidates) &&
        insignificant(held_out_loss_p_value(found.best, found.base, held_out.nats), candidates));
   if (matters && !insignificant_effect && proof.outcome != Proof::Outcome::no_consequence) return false;
+  const WhitenedData data(study, found.base.nuisance);
   Hypotheses base = found;
-  study.whiten_with(found.base.nuisance);
-  base.base.train = study.base_train();
+  base.base.train = data.base();
   base.best = base.base;
-  const bool nothing = judge(study, base, base.best, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
-  study.whiten_with(found.best.nuisance);
-  return nothing;
+  return judge(data, base, base.best, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
 }
 
 /// @param study of the data with restored counts of the `losing` encoders
 /// @param as_measured of the data as measured; `study` itself if no counts were lost
-Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measured,
+Diagnosis diagnosed(const configuration::Rig& rig, const Study& study, const Study& as_measured,
                     const std::vector<LosingEncoder>& losing, const Request& request) {
   request.progress(0.02, "noise and disturbance");
-  study.learn_disturbance();
-  Hypotheses found = searched(study, request);
+  const BaseModel base_model = learnt_base_model(study);
+  Hypotheses found = searched(study, base_model, request);
+  const WhitenedData data(study, found.best.nuisance);
   Fitted best = found.best;
   if (!best.effects.empty()) {
     request.progress(0.85, "standard deviations");
-    best = with_intervals(study, best, request.seed);
+    best = with_intervals(data, best, request.seed);
   }
   request.progress(0.88, "patterns in the residual");
   const StatedAccuracy accuracy(rig, request.accuracy);
-  auto [result, rival, within_accuracy] = judge(study, found, best, accuracy, losing, request.seed);
+  auto [result, rival, within_accuracy] = judge(data, found, best, accuracy, losing, request.seed);
   result.excitation = found.excitation;
   give_values(best, within_accuracy, result);
   if (result.verdict == Verdict::none) {
     best = found.base;
-    study.whiten_with(best.nuisance);
     result.extension.clear();
   }
   request.progress(0.92, "held-out runs");
-  result.held_out = held_out(study, as_measured, best.effects, request.seed);
+  result.held_out = held_out(study, as_measured, best, request.seed);
   if (!result.held_out.baseline_rms.empty() && !best.effects.empty()) {
-    const Blocks before = study.held_out_deviance(found.base), now = study.held_out_deviance(best);
+    const Blocks before = held_out_deviance(study, found.base), now = held_out_deviance(study, best);
     result.held_out.nats = 0.5 * (sum(before) - sum(now));
     result.held_out.likelier = block_wins(now, before, request.seed);
   }
@@ -122,26 +120,28 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
         nothing_wrong(study, found, accuracy, best, proof, result.held_out, request.seed)) {
       best = found.base;
       nothing_found(result);
-      study.whiten_with(found.base.nuisance);
-      result.held_out = held_out(study, as_measured, {}, request.seed);
+      result.held_out = held_out(study, as_measured, best, request.seed);
     } else {
       make_unknown(result, proof.why);
     }
   }
   if (result.verdict == Verdict::ambiguous) {
     request.progress(0.95, "experiment that separates the hypotheses");
-    result.next_experiment = propose_experiment(rig, best.effects, rival, disturbances_of(study));
+    result.next_experiment =
+        propose_experiment(rig, best.effects, rival, disturbances_of(WhitenedData(study, best.nuisance)));
   }
-  give_calibration(study.calibration_beside(best.effects), result);
-  if (!losing.empty()) as_measured.whiten_with(study.nuisance());
-  name_losing(losing, study, as_measured, result);
+  give_calibration(calibration_beside(best.nuisance.inaccuracies, best.effects), result);
+  if (!losing.empty()) {
+    const WhitenedData restored(study, best.nuisance), measured(as_measured, best.nuisance);
+    name_losing(losing, measured.base().loss - restored.base().loss, result);
+  }
   if (result.verdict == Verdict::unknown) {  // the jumps alone prove that an encoder loses counts
     const auto first =
         result.causes.begin() + static_cast<std::ptrdiff_t>(std::min(losing.size(), result.causes.size()));
     result.attempted.assign(first, result.causes.end());
     result.causes.erase(first, result.causes.end());
   }
-  result.traces = traces(study, as_measured, best.effects);
+  result.traces = traces(study, as_measured, best);
   request.progress(1, "done");
   return result;
 }
@@ -162,7 +162,7 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
   Data measured{prepared(train, rig, request.accuracy), prepared(test, rig, request.accuracy)};
   require_excitation(measured.train, measured.test, rig);
   hold_resting_drives(measured.train, measured.test);
-  Study as_measured(rig, measured.train, measured.test, request.excluded, request.accuracy);
+  const Study as_measured(rig, measured.train, measured.test, request.excluded, request.accuracy);
   std::vector<LosingEncoder> losing;
   if (considered(request, "position_drift")) losing = losing_encoders(train, rig);
   Diagnosis result;
@@ -172,7 +172,7 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
     Data mended{prepared(without_count_losses(std::move(train), losing, rig), rig, request.accuracy),
                 prepared(without_count_losses(std::move(test), losing, rig), rig, request.accuracy)};
     hold_resting_drives(mended.train, mended.test);
-    Study study(rig, mended.train, mended.test, request.excluded, request.accuracy);
+    const Study study(rig, mended.train, mended.test, request.excluded, request.accuracy);
     result = diagnosed(rig, study, as_measured, losing, request);
   }
   result.accuracy = request.accuracy;

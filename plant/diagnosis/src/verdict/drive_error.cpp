@@ -63,13 +63,13 @@ bool may_have_lost_edge(const Run& run, const Window& window, Output drive) {
 
 }  // namespace
 
-std::vector<DriveError> drive_errors(const Study& study, const Crane& crane, const configuration::Rig& rig,
-                                     const Accuracy& accuracy) {
+std::vector<DriveError> drive_errors(const WhitenedData& data, const Crane& crane,
+                                     const configuration::Rig& rig, const Accuracy& accuracy) {
   std::vector<DriveError> errors;
-  if (study.drive().empty()) return errors;
-  const Problem plain = study.drive().plain();
+  if (data.drive().empty()) return errors;
+  const Problem& plain = data.study().train().drive;
   const Fits base = plain.fit(replays_of(plain.runs(), crane));
-  const std::vector<Inaccurate> inaccurate = inaccurate_cranes(study, crane, rig, accuracy);
+  const std::vector<Inaccurate> inaccurate = inaccurate_cranes(data.study(), crane, rig, accuracy);
   std::vector<Fits> wrong;
   for (const Inaccurate& one : inaccurate) wrong.push_back(plain.fit(replays_of(plain.runs(), one.crane)));
   for (std::size_t output = 0; output < plain.outputs().size(); ++output) {
@@ -92,7 +92,7 @@ std::vector<DriveError> drive_errors(const Study& study, const Crane& crane, con
     }
     const double windows = static_cast<double>(std::max<std::size_t>(1, by_accuracy.size())),
                  usual = std::accumulate(by_accuracy.begin(), by_accuracy.end(), 0.0) / windows,
-                 noise = study.drive().disturbances()[output].noise;
+                 noise = data.drive().disturbances()[output].noise;
     for (const double variance : by_accuracy)
       error.expected.push_back(std::sqrt(squared(noise) +
                                          squared(permitted_share(accuracy)) * motion / windows +
@@ -110,10 +110,10 @@ double p_value(const DriveError& error) {
   return boost::math::ibeta(exceeding, static_cast<double>(error.rms.size()) - exceeding + 1, one_window);
 }
 
-std::optional<SignificantDriveError> significant_drive_error(const Study& study, const Crane& crane,
+std::optional<SignificantDriveError> significant_drive_error(const WhitenedData& data, const Crane& crane,
                                                              const configuration::Rig& rig,
                                                              const Accuracy& accuracy) {
-  const std::vector<DriveError> errors = drive_errors(study, crane, rig, accuracy);
+  const std::vector<DriveError> errors = drive_errors(data, crane, rig, accuracy);
   for (const DriveError& error : errors) {
     if (p_value(error) * static_cast<double>(errors.size()) > rules::kSignificant) continue;
     std::size_t worst = 0;

@@ -6,7 +6,7 @@
 
 #include "crane/configuration/rig.hpp"
 #include "crane/diagnosis/accuracy.hpp"
-#include "study/study.hpp"
+#include "study/whitened_data.hpp"
 
 namespace crane::diagnosis {
 
@@ -17,16 +17,16 @@ struct DriveError {
   std::vector<double> expected;  ///< its standard uncertainty, m or rad
 };
 
-/// Errors of the drives of a crane, with starts of the windows that minimise them. The variance of the error
+/// Errors of the drives of a crane. The starts of the windows minimise the errors. The variance of the error
 /// of a window is the sum of
 /// - the variance of the sensor noise as learnt;
 /// - a third of the squared change of the simulation by the stated inaccuracy of each free quantity: variance
 ///   of a uniform distribution between the bounds (JCGM 100:2008, 4.3.7); a sixth for level and asymmetry of
-///   a friction. The mean of all windows is the lower bound of this sum, because a simulation that sticks
-///   does not show the uncertainty of the friction;
-/// - the square of the product of stated accuracy of values and rms motion in the windows, for disturbances.
+///   a friction. The sum of these terms is at least its mean over all windows, because a simulation that
+///   sticks does not show the uncertainty of the friction;
+/// - for disturbances, the square of permitted_share() times the rms motion in the windows.
 /// Windows in which an edge of the command may be lost are omitted.
-[[nodiscard]] std::vector<DriveError> drive_errors(const Study& study, const Crane& crane,
+[[nodiscard]] std::vector<DriveError> drive_errors(const WhitenedData& data, const Crane& crane,
                                                    const configuration::Rig& rig, const Accuracy& accuracy);
 
 /// p value of the number of windows whose error exceeds kDriveError standard uncertainties, for a normal
@@ -40,7 +40,7 @@ struct SignificantDriveError {
 };
 
 /// Level kSignificant, Bonferroni over the drives.
-[[nodiscard]] std::optional<SignificantDriveError> significant_drive_error(const Study& study,
+[[nodiscard]] std::optional<SignificantDriveError> significant_drive_error(const WhitenedData& data,
                                                                            const Crane& crane,
                                                                            const configuration::Rig& rig,
                                                                            const Accuracy& accuracy);

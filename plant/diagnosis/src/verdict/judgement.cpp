@@ -46,15 +46,15 @@ std::string described(const ShortForce& force, const Runs& runs) {
 
 class Judgement {
  public:
-  Judgement(const Study& study, const Hypotheses& hypotheses, const Fitted& with_intervals,
+  Judgement(const WhitenedData& data, const Hypotheses& hypotheses, const Fitted& with_intervals,
             const StatedAccuracy& accuracy, const std::vector<LosingEncoder>& losing, std::uint64_t seed)
-      : study_(study),
+      : data_(data),
         all_(hypotheses),
         best_(hypotheses.best),
         accuracy_(accuracy),
         losing_(losing),
         seed_(seed),
-        within_(accuracy.contains_each(study, with_intervals)) {
+        within_(accuracy.contains_each(data.study(), with_intervals)) {
     if (std::ranges::find(within_, false) == within_.end()) test_drives();
     for (std::size_t i = 0; i < within_.size(); ++i)
       if (!within_[i]) causes_.push_back(best_.effects[i]);
@@ -79,10 +79,10 @@ class Judgement {
   /// accuracy do not explain is a cause, however little it changes the mean error, unless the accuracy of its
   /// quantity is stated.
   void test_drives() {
-    Crane base = study_.base();
+    Crane base = data_.study().base();
     for (const Effect& inaccuracy : all_.base.nuisance.inaccuracies)
       base.terms.push_back(inaccuracy.candidate->setting(inaccuracy.values));
-    drive_error_ = accuracy_.drive_error_beyond(study_, holding(std::move(base)));
+    drive_error_ = accuracy_.drive_error_beyond(data_, holding(std::move(base)));
     if (!drive_error_) return;
     for (std::size_t i = 0; i < within_.size(); ++i) {
       const Candidate& candidate = *best_.effects[i].candidate;
@@ -92,8 +92,8 @@ class Judgement {
 
   /// True if the residual is not explained; adds the variables on which it depends.
   bool has_unexplained_residual() {
-    const double load = mean_loss(study_.load(), best_.train.load),
-                 drives = mean_loss(study_.drive(), best_.train.drive);
+    const double load = mean_loss(data_.load(), best_.train.load),
+                 drives = mean_loss(data_.drive(), best_.train.drive);
     ResidualPattern& remainder = result_.remainder;
     if (std::max(load, drives) > rules::kWorstLoss) {
       remainder.predictable_fraction = 1 - rules::kWorstLoss / std::max(load, drives);
@@ -106,8 +106,7 @@ class Judgement {
       remainder.from.push_back(lacking);
       return true;
     }
-    const auto [patterns, forces] =
-        swing_residual(study_, best_, accuracy_.permitted_share_of_swing(), seed_);
+    const auto [patterns, forces] = swing_residual(data_, best_, accuracy_.permitted_share_of_swing(), seed_);
     for (std::size_t i = 0; i < std::min<std::size_t>(3, patterns.size()); ++i)
       remainder.from.push_back(described(patterns[i]));
     if (!patterns.empty()) {
@@ -115,9 +114,9 @@ class Judgement {
       return true;
     }
     // A force that acts a few times hides no cause that has been found beside it.
-    for (const ShortForce& force : forces) remainder.from.push_back(described(force, study_.load().runs()));
+    for (const ShortForce& force : forces) remainder.from.push_back(described(force, data_.runs()));
     if (causes_.empty() && !forces.empty()) return true;
-    std::vector<Pattern> left = residual_patterns(study_, all_, losing_, seed_);
+    std::vector<Pattern> left = residual_patterns(data_, all_, losing_, seed_);
     std::erase_if(left, [&](const Pattern& pattern) { return accuracy_.contains(pattern.what); });
     if (left.empty()) return false;
     remainder.predictable_fraction = left[0].what.fraction;
@@ -133,18 +132,18 @@ class Judgement {
   [[nodiscard]] std::string not_followed() const {
     const std::optional<SignificantDriveError> error =
         causes_.empty() ? drive_error_
-                        : accuracy_.drive_error_beyond(study_, holding(study_.with(best_.effects)));
+                        : accuracy_.drive_error_beyond(data_, holding(data_.with(best_.effects)));
     return error ? error->description : swing_not_followed();
   }
 
   [[nodiscard]] std::string swing_not_followed() const {
-    if (study_.load().empty()) return "";
-    const Problem plain = study_.load().plain();
-    const Fits fits = plain.fit(replays_of(plain.runs(), study_.with(best_.effects)));
+    if (data_.load().empty()) return "";
+    const Problem& plain = data_.study().train().load;
+    const Fits fits = plain.fit(replays_of(plain.runs(), data_.with(best_.effects)));
     const std::vector<Output>& outputs = plain.outputs();
     for (std::size_t output = 0; output < outputs.size(); ++output) {
       if (share_not_followed(plain, fits, output) <= rules::kNotFollowed) continue;
-      const double force = missing_force(plain, fits, output, study_.natural_radps());
+      const double force = missing_force(plain, fits, output, data_.study().natural_radps());
       if (force > rules::kCredibleForce)
         return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
                                      << kOutputNames[outputs[output]] << " lacks a force on the load of "
@@ -217,7 +216,7 @@ class Judgement {
                      [](const Ranked& a, const Ranked& b) { return a.train_gain > b.train_gain; });
   }
 
-  const Study& study_;
+  const WhitenedData& data_;
   const Hypotheses& all_;
   const Fitted& best_;
   const StatedAccuracy& accuracy_;
@@ -240,9 +239,9 @@ void make_unknown(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.sentence = sentence_of(diagnosis);
 }
 
-Judged judge(const Study& study, const Hypotheses& hypotheses, const Fitted& best,
+Judged judge(const WhitenedData& data, const Hypotheses& hypotheses, const Fitted& best,
              const StatedAccuracy& accuracy, const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
-  return Judgement(study, hypotheses, best, accuracy, losing, seed).run();
+  return Judgement(data, hypotheses, best, accuracy, losing, seed).run();
 }
 
 }  // namespace crane::diagnosis

@@ -18,7 +18,7 @@ void make_unknown(Diagnosis& diagnosis, const std::string& why);
 
 /// @param best  hypotheses.best with the values and standard deviations of with_intervals()
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
-[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, const Fitted& best,
+[[nodiscard]] Judged judge(const WhitenedData& data, const Hypotheses& hypotheses, const Fitted& best,
                            const StatedAccuracy& accuracy, const std::vector<LosingEncoder>& losing,
                            std::uint64_t seed);
 

@@ -51,10 +51,7 @@ void rank(const Cause& cause, double train_gain, std::vector<Ranked>& ranking) {
 
 }  // namespace
 
-void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, const Study& as_measured,
-                 Diagnosis& diagnosis) {
-  if (losing.empty()) return;
-  const double train_gain = as_measured.base_train().loss - study.base_train().loss;
+void name_losing(const std::vector<LosingEncoder>& losing, double train_gain, Diagnosis& diagnosis) {
   std::vector<Cause> causes;
   std::vector<plant::TermSetting> terms;
   for (const LosingEncoder& jumping : losing) {

@@ -41,14 +41,15 @@ double largest_permitted_share(const Unexplained& left, const Effects& effects) 
 }
 
 /// Decrease of the sum of squares of a drive by each of the effects; infinite for an effect on another axis.
-std::vector<double> explained_by_each(const Study& study, const Effects& effects, const Pieces& pieces) {
+std::vector<double> explained_by_each(const WhitenedData& data, const Effects& effects,
+                                      const Pieces& pieces) {
   std::vector<double> explained(effects.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < explained.size(); ++i) {
     if (effects[i].candidate->axis != axis_of(pieces.output)) continue;
     Effects others = effects;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     explained[i] =
-        squares_of(residuals_of(pieces, replays_of(*pieces.runs, study.with(others)))) - pieces.squares();
+        squares_of(residuals_of(pieces, replays_of(*pieces.runs, data.with(others)))) - pieces.squares();
   }
   return explained;
 }
@@ -62,15 +63,15 @@ double weakest(const Effects& effects, const std::vector<double>& explained, con
 }
 
 /// Acceleration of the axis per volt of its command, m/s^2/V or rad/s^2/V.
-double volt_acceleration(const Study& study, Output axis) {
-  const auto parameters = study.with({}).parameters;
+double volt_acceleration(const WhitenedData& data, Output axis) {
+  const auto parameters = data.with({}).parameters;
   return axis == kSlewAngle ? parameters.slew_gain_radps2pv : parameters.trolley_gain_mps2pv;
 }
 
 }  // namespace
 
-bool oscillates(const Study& study, const Effects& effects) {
-  const Crane crane = study.with(effects);
+bool oscillates(const WhitenedData& data, const Effects& effects) {
+  const Crane crane = data.with(effects);
   return !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
 }
 
@@ -82,53 +83,54 @@ bool counts_as_pattern(const Pattern& pattern, const Effects& effects) {
                     u.gain > rules::kPatternShareOfCause * pattern.of_weakest);
 }
 
-std::vector<Pattern> residual_patterns(const Study& study, const Hypotheses& hypotheses,
+std::vector<Pattern> residual_patterns(const WhitenedData& data, const Hypotheses& hypotheses,
                                        const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
   std::vector<Pattern> left;
-  const Runs& runs = study.drive().runs();
+  const Runs& runs = data.runs();
   const Effects& effects = hypotheses.best.effects;
-  const bool oscillating = oscillates(study, effects);
-  const Replays best = replays_of(runs, study.with(effects)), base = replays_of(runs, study.with({}));
-  for (const Output axis : study.drive().outputs()) {
+  const bool oscillating = oscillates(data, effects);
+  const Replays best = replays_of(runs, data.with(effects)), base = replays_of(runs, data.with({}));
+  for (const Output axis : data.drive().outputs()) {
     const Pieces pieces = pieces_of(runs, best, axis);
     const double of_base = squares_of(residuals_of(pieces, base));
-    const std::vector<double> by_each = explained_by_each(study, effects, pieces);
+    const std::vector<double> by_each = explained_by_each(data, effects, pieces);
     const auto add = [&](const Unexplained& what) {
       left.push_back({what, of_base, weakest(effects, by_each, what)});
     };
     for (const Unexplained& pattern : find_unexplained(pieces)) add(pattern);
     if (!oscillating)
-      if (const auto line = find_force_line(pieces, seed, volt_acceleration(study, axis))) add(*line);
+      if (const auto line = find_force_line(pieces, seed, volt_acceleration(data, axis))) add(*line);
     const bool loses = std::any_of(losing.begin(), losing.end(),
                                    [&](const LosingEncoder& encoder) { return encoder.axis == axis; });
     if (!loses)
       if (const auto jumps = find_jumps(pieces)) add(*jumps);
   }
   const Fits& of_load = hypotheses.best.train.load;
-  for (std::size_t output = 0; output < study.load().outputs().size(); ++output)
-    if (const auto line = find_force_line(pieces_of(study.load(), of_load, output), seed))
+  for (std::size_t output = 0; output < data.load().outputs().size(); ++output)
+    if (const auto line = find_force_line(pieces_of(data.load(), of_load, output), seed))
       left.push_back({*line, hypotheses.base.train.load_loss});
   std::sort(left.begin(), left.end(),
             [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
   return left;
 }
 
-SwingResidual swing_residual(const Study& study, const Fitted& best, double permitted, std::uint64_t seed) {
+SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, double permitted,
+                             std::uint64_t seed) {
   SwingResidual left;
-  const Problem& load = study.load();
+  const Problem& load = data.load();
   if (load.empty()) return left;
   const double window_s =
-      std::max(kBlock_s, kPatternWindow_periods * 2 * std::numbers::pi / study.natural_radps());
-  Problem long_windows(load.runs(), Part::load, window_s, study.natural_radps());
-  const Replays crane = replays_of(load.runs(), study.with(best.effects));
-  long_windows.learn_disturbance(crane);
+      std::max(kBlock_s, kPatternWindow_periods * 2 * std::numbers::pi / data.study().natural_radps());
+  const Replays crane = replays_of(load.runs(), data.with(best.effects));
+  const Problem long_windows =
+      Problem(load.runs(), Part::load, window_s, data.study().natural_radps()).whitened_by(crane);
   const Fits fits = long_windows.fit(crane);
   for (std::size_t output = 0; output < load.outputs().size(); ++output) {
     double largest_rad = permitted * rms_motion(load, output);
     for (const auto& change : best.change)
       largest_rad = std::max(largest_rad, rules::kLeastBeside * change[load.outputs()[output]]);
     std::vector<SwingPattern> found = find_swing_patterns(long_windows, fits, output, seed);
-    if (!oscillates(study, best.effects))
+    if (!oscillates(data, best.effects))
       if (auto band = find_narrow_band(load, best.train.load, output)) found.push_back(std::move(*band));
     for (SwingPattern& pattern : found)
       if (pattern.rms_rad > largest_rad) left.patterns.push_back(std::move(pattern));

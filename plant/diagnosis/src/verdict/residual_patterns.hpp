@@ -20,13 +20,13 @@ struct Pattern {
 
 /// Patterns in the residual of the drives and lines in the residual of the swing, strongest first.
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
-[[nodiscard]] std::vector<Pattern> residual_patterns(const Study& study, const Hypotheses& hypotheses,
+[[nodiscard]] std::vector<Pattern> residual_patterns(const WhitenedData& data, const Hypotheses& hypotheses,
                                                      const std::vector<LosingEncoder>& losing,
                                                      std::uint64_t seed);
 
 /// True if the crane with these effects has an inner coordinate that oscillates freely. The effects then
 /// produce a line of the spectrum themselves, and the start of the oscillation is free in each window.
-[[nodiscard]] bool oscillates(const Study& study, const Effects& effects);
+[[nodiscard]] bool oscillates(const WhitenedData& data, const Effects& effects);
 
 /// True if the pattern exceeds the thresholds of patterns beside these effects.
 [[nodiscard]] bool counts_as_pattern(const Pattern& pattern, const Effects& effects);
@@ -40,7 +40,7 @@ struct SwingResidual {
 };
 
 /// @param permitted share of the motion, > 0: accuracy of the rig file
-[[nodiscard]] SwingResidual swing_residual(const Study& study, const Fitted& best, double permitted,
+[[nodiscard]] SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, double permitted,
                                            std::uint64_t seed);
 
 }  // namespace crane::diagnosis

@@ -100,39 +100,41 @@ std::vector<Crane> StatedAccuracy::inaccurate_cranes(const Study& study, const C
 std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted& fitted) const {
   const Effects& effects = fitted.effects;
   if (effects.empty()) return {};
-  const Crane rig_file = study.with({}), extended = study.with(effects);
+  const auto crane_with = [&](const Effects& some) {
+    return study.crane(fitted.nuisance.inaccuracies, some);
+  };
+  const Crane rig_file = crane_with({}), extended = crane_with(effects);
   const std::vector<Crane> inaccurate = inaccurate_cranes(study, rig_file);
   std::vector<Crane> without_each;
-  for (std::size_t i = 0; i < effects.size(); ++i) without_each.push_back(study.with(without(effects, i)));
+  for (std::size_t i = 0; i < effects.size(); ++i) without_each.push_back(crane_with(without(effects, i)));
   Changes largest{};
   std::vector<Changes> by_effect(effects.size(), Changes{});
-  for (const Problem* part : {&study.drive(), &study.load(), &study.whole_runs()}) {
+  for (const Problem* part : {&study.train().drive, &study.train().load, &study.whole_runs()}) {
     if (part->empty()) continue;
     const std::size_t first = part == &study.whole_runs() ? kOutputs : 0;
-    const Problem plain = part->plain();
     const auto changes = [&](const Replays& crane, const Fits& at) {
       Changes squares{};
-      const std::vector<double> of_outputs = plain.squares_changed(crane, at);
-      for (std::size_t i = 0; i < of_outputs.size(); ++i) squares[first + plain.outputs()[i]] = of_outputs[i];
+      const std::vector<double> of_outputs = part->squares_changed(crane, at);
+      for (std::size_t i = 0; i < of_outputs.size(); ++i) squares[first + part->outputs()[i]] = of_outputs[i];
       return squares;
     };
     const auto add_accelerations = [&](const Replays& changed, const Replays& unchanged, Changes& squares) {
-      if (part != &study.drive()) return;
-      const auto of_axes = acceleration_squares(plain.runs(), changed, unchanged);
+      if (part != &study.train().drive) return;
+      const auto of_axes = acceleration_squares(part->runs(), changed, unchanged);
       std::ranges::copy(of_axes, squares.begin() + 2 * kOutputs);
     };
-    const Replays replays_of_rig_file = replays_of(plain.runs(), rig_file);
-    const Fits of_rig_file = plain.fit(replays_of_rig_file);
+    const Replays replays_of_rig_file = replays_of(part->runs(), rig_file);
+    const Fits of_rig_file = part->fit(replays_of_rig_file);
     for (const Crane& crane : inaccurate) {
-      const Replays replays = replays_of(plain.runs(), crane);
+      const Replays replays = replays_of(part->runs(), crane);
       Changes by_inaccuracy = changes(replays, of_rig_file);
       add_accelerations(replays, replays_of_rig_file, by_inaccuracy);
       for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], by_inaccuracy[i]);
     }
-    const Replays replays_of_extended = replays_of(plain.runs(), extended);
-    const Fits of_extended = plain.fit(replays_of_extended);
+    const Replays replays_of_extended = replays_of(part->runs(), extended);
+    const Fits of_extended = part->fit(replays_of_extended);
     for (std::size_t i = 0; i < effects.size(); ++i) {
-      const Replays replays = replays_of(plain.runs(), without_each[i]);
+      const Replays replays = replays_of(part->runs(), without_each[i]);
       Changes of_part = changes(replays, of_extended);
       add_accelerations(replays, replays_of_extended, of_part);
       for (std::size_t k = 0; k < of_part.size(); ++k) by_effect[i][k] += of_part[k];
@@ -157,9 +159,9 @@ bool StatedAccuracy::contains(const Unexplained& pattern) const {
   return pattern.acceleration <= accuracy_.friction * gain * friction_[pattern.output].least_coulomb_v;
 }
 
-std::optional<SignificantDriveError> StatedAccuracy::drive_error_beyond(const Study& study,
+std::optional<SignificantDriveError> StatedAccuracy::drive_error_beyond(const WhitenedData& data,
                                                                         const Crane& crane) const {
-  return significant_drive_error(study, crane, rig_, accuracy_);
+  return significant_drive_error(data, crane, rig_, accuracy_);
 }
 
 }  // namespace crane::diagnosis

@@ -17,14 +17,19 @@ class StatedAccuracy {
  public:
   StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy);
 
-  /// True for each effect within the accuracy of the rig file. If the accuracy of its quantity is stated, the
-  /// effect is within the accuracy when all its values are less than deviations_beyond() standard deviations
-  /// away from the accuracy; the error of a scale and that of a confounded quantity add. Any other effect is
-  /// within the accuracy when it changes the simulation of no output more than the largest stated inaccuracy
-  /// of a drive, a position or the swing scale changes the simulation of the rig file, or when it is a swing
-  /// offset of at most half a resolution of the sensor. A change is an rms in the windows of the training
-  /// data and, for a swing, over whole runs, from the same starts; for a drive also the rms of its
-  /// acceleration along the measured motion, because the position hides a force that alternates quickly.
+  /// By effect: whether the effect is within the accuracy of the rig file.
+  ///
+  /// If the accuracy of its quantity is stated: all values of the effect are less than deviations_beyond()
+  /// standard deviations from the accuracy. The errors of a scale and of a confounded quantity add.
+  ///
+  /// Otherwise, one of
+  /// - the effect changes the simulation of no output more than the largest stated inaccuracy of a drive, a
+  ///   position or the swing scale changes the simulation of the rig file;
+  /// - the effect is a swing offset of at most half a resolution of the sensor.
+  ///
+  /// A change is an rms over the windows of the training data; for a swing also over whole runs, from the
+  /// same starts; for a drive also the rms of its acceleration along the measured motion, because the
+  /// position hides a force that alternates quickly.
   /// @param fitted with interval_std_dev
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
@@ -33,7 +38,7 @@ class StatedAccuracy {
   /// of the support, add.
   [[nodiscard]] double permitted_share_of_swing() const { return 2 * permitted_share(accuracy_); }
   /// significant_drive_error() with this accuracy.
-  [[nodiscard]] std::optional<SignificantDriveError> drive_error_beyond(const Study& study,
+  [[nodiscard]] std::optional<SignificantDriveError> drive_error_beyond(const WhitenedData& data,
                                                                         const Crane& crane) const;
 
   /// Whether the accuracy of the quantity that the effect changes is stated.

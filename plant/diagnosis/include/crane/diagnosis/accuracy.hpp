@@ -13,8 +13,8 @@ struct Accuracy {
 /// its temperature. A process delays a command by up to one period, on average by half a period.
 inline constexpr Accuracy kUsualAccuracy{.values = 0.02, .friction = 0.05, .times_periods = 0.5};
 
-/// Share of a motion that an unknown disturbance may change: the accuracy of values, or the usual one of a
-/// rig file that is stated to be exact.
+/// Share of a motion that an unknown disturbance may change: Accuracy::values, or the usual accuracy if the
+/// rig file is stated to be exact (0).
 [[nodiscard]] constexpr double permitted_share(const Accuracy& accuracy) {
   return accuracy.values > 0 ? accuracy.values : kUsualAccuracy.values;
 }

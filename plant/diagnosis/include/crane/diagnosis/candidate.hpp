@@ -13,11 +13,10 @@ namespace crane::diagnosis {
 
 struct FreeParameter {
   std::string name, unit;
-  double null = 0;           ///< no effect
-  double low = 0, high = 0;  ///< physical bounds, with sign
+  double null = 0;           ///< value at which the parameter has no effect
+  double low = 0, high = 0;  ///< physical bounds of the signed value
   double step = 0;  ///< step of the finite difference: large enough to be visible, small enough for a slope
-  bool at_a_bound =
-      false;  ///< the value is usually at a bound: a rough fit first holds the value at each bound
+  bool often_at_bound = false;  ///< true: a rough fit first holds the value at each bound
 };
 
 /// One form of a candidate. A probe is the term with a small amount (`large_probe`: a large one). The score
@@ -48,9 +47,9 @@ struct Candidate {
   /// A friction that is a wave over position: its shapes also contain the strongest waves of the unexplained
   /// friction.
   bool friction_waves = false;
-  /// Values from which a fit may begin, beside the shapes. For inner coordinates that oscillate freely in
-  /// each window, the gain is visible only after a fit of the starts. All values are within the bounds of
-  /// `parameters`.
+  /// Initial values of a fit, in addition to those of the shapes, within the bounds of `parameters`. Inner
+  /// coordinates that oscillate freely in each window decrease the loss only after a fit of their initial
+  /// states.
   std::vector<std::vector<double>> ringing_starts;
   /// Further initial values, if the cause gives the load a second natural frequency. With these values, one
   /// natural frequency is that of the load without the cause; the argument is the other one, Hz. Some values

@@ -111,7 +111,7 @@ struct Motion {
 /// reproduces them.
 [[nodiscard]] Motion spline(std::span<const double> measured, double period_s);
 /// Cubic spline through samples at their own, increasing times, evaluated at 0, period, ... for `rows` rows.
-/// The value is constant more than one period outside the samples.
+/// More than one period before the first or after the last sample, the value is constant.
 [[nodiscard]] Motion spline_of(std::span<const double> time_s, std::span<const double> measured,
                                double period_s, std::size_t rows);
 

@@ -55,17 +55,18 @@ struct HeldOut {
   std::map<std::string, double> whole_extended_motion;
   double gain = 0;  ///< 1 - extended / baseline, noise-weighted, over the columns that the causes act on
   std::array<double, 2> gain_ci95{0, 0};
-  /// Log likelihood ratio of the held-out data between extended model and base model, each with its own noise
-  /// model [nats]; share of the resamples of the blocks in which the ratio is positive.
-  double nats = 0, likelier = 0;
+  /// Log likelihood ratio of the held-out data [nats], extended model over base model, each with its own
+  /// noise model.
+  double nats = 0;
+  double likelier = 0;  ///< share of the resamples of the blocks in which the ratio is positive
 };
 
-/// A quantity of the rig file with the value, within the accuracy of the rig file, that the data prefer.
+/// A quantity of the rig file with its best estimate within the accuracy of the rig file.
 struct Calibrated {
   std::string name, axis;  ///< of the term that changes the quantity
   struct Parameter {
     std::string name, unit;
-    double value = 0, null = 0;  ///< null: as in the rig file
+    double value = 0, null = 0;  ///< null: leaves the quantity of the rig file unchanged
     double limit = 0;            ///< largest difference from `null` within the accuracy of the rig file
   };
   std::vector<Parameter> parameters;

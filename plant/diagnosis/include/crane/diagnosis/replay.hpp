@@ -41,8 +41,8 @@ struct PreparedRun {
   /// `motion` in the middle of each step: [0] without, [1] with inner coordinates.
   std::array<std::vector<MeasuredKinematics>, 2> mid_step;
   std::array<double, kOutputs> least_noise{};  ///< quantisation noise, standard deviation, m or rad
-  /// Trolley, slew; by row: standard deviation of the change of the speed's error, because the time at which
-  /// the command acts is inaccurate, m/s or rad/s. Empty: exact.
+  /// [trolley, slew][row]: standard deviation of the change of the speed error, m/s or rad/s. The time at
+  /// which the command acts is inaccurate. Empty: the time is exact.
   std::array<std::vector<double>, 2> speed_inaccuracy;
 };
 /// @param accuracy of the rig file; by default it is exact
