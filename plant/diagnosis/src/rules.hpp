@@ -108,6 +108,10 @@ inline constexpr Rule kLeastSwingRms{"least_swing_rms", 0.01, "m or rad",
 inline constexpr Rule kCredibleForce{
     "credible_force", 0.03, "1", "maximum rms of the disturbance of the load / its weight",
     "half a newton on two kilograms: wind and hands at a laboratory's crane"};
+inline constexpr Rule kCredibleDrive{
+    "credible_drive", 0.01, "1",
+    "maximum rms of the disturbance of a drive / its acceleration at the largest voltage",
+    "torque ripple of servo motors: 1 % of the rated torque"};
 inline constexpr Rule kPattern{"pattern", 0.008, "1", "minimum share of a pattern in the loss of the drives",
                                "read off examples"};
 inline constexpr Rule kPatternLuck{
@@ -178,6 +182,7 @@ inline constexpr std::array kAll{kVotes,
                                  kDriveError,
                                  kLeastSwingRms,
                                  kCredibleForce,
+                                 kCredibleDrive,
                                  kPattern,
                                  kPatternLuck,
                                  kPatternShare,

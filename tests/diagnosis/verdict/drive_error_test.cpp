@@ -18,6 +18,27 @@ TEST(DriveErrorInWindows, IsExplainedByAnInaccurateRigFile) {
   }
 }
 
+/// p value of the exact rig file on two runs with a random force on the drive, correlation time 0.5 s.
+double p_value_beside_force(double force_v, std::uint64_t seed) {
+  strange::Axis axis;
+  axis.disturbance_v = force_v;
+  std::vector<diagnosis::Run> runs;
+  for (const std::uint64_t run : {1, 2})
+    for (diagnosis::Run& piece :
+         load_run(strange::recorded_axis(axis, 16, 10 * seed + run), rig_of_axis(), "axis.csv").runs)
+      runs.push_back(std::move(piece));
+  return p_value(error_in(std::move(runs), rig_of_axis()));
+}
+
+/// Forces of 0.8 % and of 6 % of the largest voltage, 10 V.
+TEST(DriveErrorInWindows, IsExplainedByACredibleRandomForceOnly) {
+  for (const std::uint64_t seed : {3, 4, 5}) {
+    SCOPED_TRACE(seed);
+    EXPECT_GT(p_value_beside_force(0.08, seed), 0.01);
+    EXPECT_LT(p_value_beside_force(0.6, seed), 1e-3);
+  }
+}
+
 /// The generator's gantry has no friction; its drives have disturbances of up to 0.05 V.
 TEST(DriveErrorInWindows, IsExplainedByADisturbanceOfAnAxisWithoutFriction) {
   truth::Case request{.rig = "gantry", .effects = {}, .seed = 4, .seconds = 20};

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "crane/configuration/rig.hpp"
 #include "laboratory/strange_lab.hpp"
@@ -39,7 +40,7 @@ TEST(MissingForce, IsThatOfTheEquationOfAPendulum) {
   const double differenced =
       kAmplitude_rad / std::sqrt(2.0) * (curvature * std::pow(kForced_radps / kNatural_radps, 2) - 1);
   EXPECT_LT(differenced, expected);
-  EXPECT_NEAR(missing_force(problem, fits, 0, kNatural_radps), differenced, 0.1 * differenced);
+  EXPECT_NEAR(missing_force(problem, fits, 0, kNatural_radps, 0), differenced, 0.1 * differenced);
 }
 
 TEST(MissingForce, IsZeroForASimulationThatEqualsTheMeasurement) {
@@ -49,8 +50,26 @@ TEST(MissingForce, IsZeroForASimulationThatEqualsTheMeasurement) {
   const Problem problem = Problem(runs, Part::load, 2, 2.5).plain();
   Fits fits = problem.fit(replays_of(runs, {pendulum_rig().plant, pendulum_rig().terms}));
   for (std::size_t w = 0; w < fits.size(); ++w) fits[w].simulated = problem.measured(problem.windows()[w]);
-  EXPECT_EQ(missing_force(problem, fits, 0, 2.5), 0);
-  EXPECT_EQ(share_not_followed(problem, fits, 0), 0);
+  EXPECT_EQ(missing_force(problem, fits, 0, 2.5, 0), 0);
+  EXPECT_EQ(share_not_followed(problem, fits, 0, 0), 0);
+}
+
+/// A coarse sensor: its noise alone would count as a force of 8 % of the weight.
+TEST(MissingForce, IsNotTheNoiseOfTheSensor) {
+  constexpr double kNoise_rad = 0.02, kSmall = 0.02;
+  const auto table =
+      strange::recorded(strange::moved({}, 60, [](double t) { return 0.3 * std::sin(2 * t); }), {});
+  const Runs runs{prepare(load_run(table, pendulum_rig(), "swing.csv").runs.at(0), pendulum_rig())};
+  const Problem problem = Problem(runs, Part::load, 2, 2.5).plain();
+  Fits fits = problem.fit(replays_of(runs, {pendulum_rig().plant, pendulum_rig().terms}));
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, kNoise_rad);
+  for (std::size_t w = 0; w < fits.size(); ++w)
+    fits[w].simulated =
+        problem.measured(problem.windows()[w]).unaryExpr([&](double x) { return x + noise(random); });
+  EXPECT_GT(missing_force(problem, fits, 0, 2.5, 0), 0.06);
+  EXPECT_LT(missing_force(problem, fits, 0, 2.5, kNoise_rad), kSmall);
+  EXPECT_LT(share_not_followed(problem, fits, 0, kNoise_rad), 0.5 * share_not_followed(problem, fits, 0, 0));
 }
 
 }  // namespace

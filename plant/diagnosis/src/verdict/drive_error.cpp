@@ -1,5 +1,6 @@
 #include "verdict/drive_error.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
@@ -55,6 +56,37 @@ std::vector<Inaccurate> inaccurate_cranes(const Study& study, const Crane& crane
   return cranes;
 }
 
+/// Mean variance of the position in a window whose start (position and speed) is estimated, for a random
+/// acceleration with standard deviation 1: s^2 (m/s2 to m). The acceleration has an exponential
+/// autocorrelation. @param correlation_s  correlation time; 0: white, constant over one period
+double variance_by_random_acceleration(double window_s, double correlation_s, double period_s) {
+  constexpr Eigen::Index kPoints = 40;
+  const double step_s = window_s / kPoints;
+  Eigen::MatrixXd covariance(kPoints, kPoints), twice_integrated = Eigen::MatrixXd::Zero(kPoints, kPoints);
+  Eigen::MatrixXd start(kPoints, 2);
+  const double time_s = std::max(correlation_s, 0.5 * period_s);
+  for (Eigen::Index i = 0; i < kPoints; ++i) {
+    start.row(i) << 1, static_cast<double>(i) - 0.5 * (kPoints - 1);
+    for (Eigen::Index j = 0; j < kPoints; ++j) {
+      covariance(i, j) = std::exp(-std::abs(static_cast<double>(i - j)) * step_s / time_s);
+      if (j < i) twice_integrated(i, j) = static_cast<double>(i - j) * step_s * step_s;
+    }
+  }
+  // A correlation shorter than a step: the same spectral density at low frequencies.
+  covariance *= std::min(1.0, 2 * time_s / step_s);
+  start.colwise().normalize();
+  const Eigen::MatrixXd left = twice_integrated - start * (start.transpose() * twice_integrated);
+  return (left * covariance * left.transpose()).trace() / static_cast<double>(kPoints);
+}
+
+/// Standard deviation of the learnt disturbance of a drive, at most the credible one, m/s2 or rad/s2.
+double credible_acceleration(const Disturbance& learnt, Output output, const configuration::Rig& rig) {
+  const bool slews = output == kSlewAngle;
+  const double gain = slews ? rig.plant.slew_gain_radps2pv : rig.plant.trolley_gain_mps2pv;
+  const double volts = rig.drives[slews ? plant::kSlew : plant::kTrolley].volt_limit_v;
+  return std::min(learnt.acceleration, rules::kCredibleDrive * gain * volts);
+}
+
 bool may_have_lost_edge(const Run& run, const Window& window, Output drive) {
   for (std::size_t k = window.first; k < window.first + window.rows; ++k)
     if (run.may_have_lost_edge(drive, k)) return true;
@@ -75,7 +107,9 @@ std::vector<DriveError> drive_errors(const WhitenedData& data, const Crane& cran
   for (std::size_t output = 0; output < plain.outputs().size(); ++output) {
     DriveError& error = errors.emplace_back();
     error.output = plain.outputs()[output];
-    std::vector<double> by_accuracy;
+    const Disturbance& learnt = data.drive().disturbances()[output];
+    const double acceleration = credible_acceleration(learnt, error.output, rig);
+    std::vector<double> by_accuracy, by_force;
     double motion = 0;
     for (std::size_t w = 0; w < base.size(); ++w) {
       const Window& window = plain.windows()[w];
@@ -87,16 +121,19 @@ std::vector<DriveError> drive_errors(const WhitenedData& data, const Crane& cran
         variance +=
             inaccurate[i].variance * mean_square(plain, w, output, wrong[i][w].simulated - base[w].simulated);
       by_accuracy.push_back(variance);
+      const double period_s = plain.runs()[window.run].run.period_s;
+      by_force.push_back(squared(acceleration) *
+                         variance_by_random_acceleration(static_cast<double>(window.rows) * period_s,
+                                                         learnt.correlation_s, period_s));
       const Eigen::VectorXd measured = plain.measured_values(window, output);
       motion += (measured.array() - measured.mean()).square().mean();
     }
     const double windows = static_cast<double>(std::max<std::size_t>(1, by_accuracy.size())),
-                 usual = std::accumulate(by_accuracy.begin(), by_accuracy.end(), 0.0) / windows,
-                 noise = data.drive().disturbances()[output].noise;
-    for (const double variance : by_accuracy)
-      error.expected.push_back(std::sqrt(squared(noise) +
+                 usual = std::accumulate(by_accuracy.begin(), by_accuracy.end(), 0.0) / windows;
+    for (std::size_t w = 0; w < by_accuracy.size(); ++w)
+      error.expected.push_back(std::sqrt(squared(learnt.noise) + by_force[w] +
                                          squared(permitted_share(accuracy)) * motion / windows +
-                                         std::max(variance, usual)));
+                                         std::max(by_accuracy[w], usual)));
   }
   return errors;
 }

@@ -24,7 +24,10 @@ struct DriveError {
 ///   of a uniform distribution between the bounds (JCGM 100:2008, 4.3.7); a sixth for level and asymmetry of
 ///   a friction. The sum of these terms is at least its mean over all windows, because a simulation that
 ///   sticks does not show the uncertainty of the friction;
-/// - for disturbances, the square of permitted_share() times the rms motion in the windows.
+/// - for disturbances that grow with the motion, the square of permitted_share() times the rms motion in the
+///   windows;
+/// - for a random force on the drive, the variance that the learnt disturbance causes in a window whose start
+///   is estimated; the disturbance is at most kCredibleDrive of the acceleration at volt_limit.
 /// Windows in which an edge of the command may be lost are omitted.
 [[nodiscard]] std::vector<DriveError> drive_errors(const WhitenedData& data, const Crane& crane,
                                                    const configuration::Rig& rig, const Accuracy& accuracy);

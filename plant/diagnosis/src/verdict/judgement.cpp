@@ -142,8 +142,9 @@ class Judgement {
     const Fits fits = plain.fit(replays_of(plain.runs(), data_.with(best_.effects)));
     const std::vector<Output>& outputs = plain.outputs();
     for (std::size_t output = 0; output < outputs.size(); ++output) {
-      if (share_not_followed(plain, fits, output) <= rules::kNotFollowed) continue;
-      const double force = missing_force(plain, fits, output, data_.study().natural_radps());
+      const double noise = data_.load().disturbances()[output].noise;
+      if (share_not_followed(plain, fits, output, noise) <= rules::kNotFollowed) continue;
+      const double force = missing_force(plain, fits, output, data_.study().natural_radps(), noise);
       if (force > rules::kCredibleForce)
         return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
                                      << kOutputNames[outputs[output]] << " lacks a force on the load of "

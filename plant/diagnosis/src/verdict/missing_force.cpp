@@ -1,5 +1,6 @@
 #include "verdict/missing_force.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,14 @@
 #include "study/study.hpp"
 
 namespace crane::diagnosis {
+namespace {
+
+/// Rms of a signal whose mean square contains that of independent noise.
+double root_without(double mean_square, double of_noise) {
+  return std::sqrt(std::max(0.0, mean_square - of_noise));
+}
+
+}  // namespace
 
 double rms_motion(const Problem& problem, std::size_t output) {
   double squares = 0, count = 0;
@@ -18,18 +27,19 @@ double rms_motion(const Problem& problem, std::size_t output) {
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
-  const double motion = rms_motion(problem, output);
+double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output, double noise) {
+  const double motion = root_without(std::pow(rms_motion(problem, output), 2), noise * noise);
   if (motion <= rules::kLeastSwingRms) return 0;
   double count = 0;
   for (const Window& window : problem.windows())
     count += static_cast<double>(problem.measured_rows(window, output));
-  return std::sqrt(sum(problem.squares_left(fits, output)) / count) / motion;
+  return root_without(sum(problem.squares_left(fits, output)) / count, noise * noise) / motion;
 }
 
-double missing_force(const Problem& problem, const Fits& fits, std::size_t output, double natural_radps) {
+double missing_force(const Problem& problem, const Fits& fits, std::size_t output, double natural_radps,
+                     double noise) {
   constexpr double kSpan_periods = 1.0 / 8;
-  double squares = 0, count = 0;
+  double squares = 0, count = 0, by_noise = 0;
   for (std::size_t w = 0; w < fits.size(); ++w) {
     const Window& window = problem.windows()[w];
     const double period_s = problem.runs()[window.run].run.period_s;
@@ -44,14 +54,16 @@ double missing_force(const Problem& problem, const Fits& fits, std::size_t outpu
     const auto is_measured = [&](Eigen::Index k) {
       return run.is_measured(problem.outputs()[output], window.first + static_cast<std::size_t>(k));
     };
+    const double of_white_noise = 2 * scale * scale + std::pow(1 - 2 * scale, 2);
     for (Eigen::Index k = span; k + span < rows; ++k) {
       if (!is_measured(k - span) || !is_measured(k) || !is_measured(k + span)) continue;
       const double force = scale * (left[k + span] - 2 * left[k] + left[k - span]) + left[k];
       squares += force * force;
+      by_noise += of_white_noise * noise * noise;
       ++count;
     }
   }
-  return count > 0 ? std::sqrt(squares / count) : 0;
+  return count > 0 ? root_without(squares / count, by_noise / count) : 0;
 }
 
 }  // namespace crane::diagnosis

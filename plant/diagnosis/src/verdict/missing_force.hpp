@@ -7,15 +7,19 @@ namespace crane::diagnosis {
 /// Rms of the measured values of an output about the mean of their window, m or rad; 0 without windows.
 [[nodiscard]] double rms_motion(const Problem& problem, std::size_t output);
 
-/// Rms residual of an output in windows over the rms motion in the windows; 0 if the output hardly moves.
+/// Rms residual of an output in windows over the rms motion in the windows, both without the noise of the
+/// sensor; 0 if the output hardly moves.
 /// @param output index into the outputs of the problem, which is not whitened
-[[nodiscard]] double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output);
+/// @param noise standard deviation of the sensor, m or rad
+[[nodiscard]] double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output,
+                                        double noise);
 
 /// Rms of the missing force on the load, as a share of the weight: F / m g = r'' / w^2 + r with the residual
-/// r and the natural frequency w. The second difference spans an eighth of a period, so that counts and noise
-/// of the sensor have little effect.
+/// r and the natural frequency w. The second difference spans an eighth of a period. The variance that white
+/// noise of the sensor adds is subtracted.
 /// @param output index into the outputs of the problem, which is not whitened
+/// @param noise standard deviation of the sensor, rad
 [[nodiscard]] double missing_force(const Problem& problem, const Fits& fits, std::size_t output,
-                                   double natural_radps);
+                                   double natural_radps, double noise);
 
 }  // namespace crane::diagnosis
