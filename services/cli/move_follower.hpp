@@ -1,10 +1,16 @@
 #pragma once
 /// Waits for the end of a requested move.
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "cli/tool_bus.hpp"
 
 namespace crane::cli {
+
+/// Reason why a move or a session of the stick that was accepted as `number` is no longer the present one.
+/// @param present the present move: a later one, or one of a restarted supervisor, which counts from 1
+[[nodiscard]] std::string reason_of_replacement(std::uint64_t number, const msg::AcceptedMove& present);
 
 /// Must be created before the request is sent, so that a short move is not missed.
 class MoveFollower {
@@ -15,7 +21,7 @@ class MoveFollower {
   /// @param id         id of the accepted request
   /// @param timeout_s  longest wait
   /// @throws std::runtime_error with the reason: the crane stopped, another move replaced this one, the
-  ///   planner did not execute the move, or timeout
+  ///   planner did not execute the move or ended it before the target, or timeout
   void follow(std::uint64_t id, double timeout_s);
   /// Waits like follow(), until `stopped` returns true at the latest.
   /// @return true at the end of the move; false after a stop signal, at the timeout, or when `stopped`
@@ -27,12 +33,15 @@ class MoveFollower {
   /// @return true when the supervisor has been in HOLD for enough ticks. @throws std::runtime_error
   bool over(std::uint64_t id);
 
+  /// @throws std::runtime_error if the last reference is not the target of the move
+  void require_target() const;
+
   bus::Bus& bus_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::Reference> references_;
-  std::uint64_t number_ = 0;  ///< AcceptedMove.number; 0: not accepted yet
-  bool accepted_ = false;     ///< true: the supervisor has published this move
-  bool executed_ = false;     ///< true: the planner has published a reference for this move
+  msg::AcceptedMove move_{};                 ///< number 0: not accepted yet
+  std::optional<msg::Reference> reference_;  ///< newest one that executes the move
+  bool accepted_ = false;                    ///< true: the supervisor has published this move
   int held_ticks_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <vector>
@@ -28,6 +29,8 @@ std::string without_bus(crane_RequestKind kind) {
 }
 
 class Conversation {
+  static constexpr double kReportEvery_s = 3;
+
  public:
   Conversation(bus::Bus& bus, const stack::OperatorRequest& wanted)
       : bus_{bus},
@@ -40,7 +43,12 @@ class Conversation {
   }
 
   void find_listeners(double timeout_s) {
-    if (wait_until(bus_, timeout_s, [this] { return found(); })) return;
+    for (double left_s = timeout_s; left_s > 0; left_s -= kReportEvery_s) {
+      if (wait_until(bus_, std::min(left_s, kReportEvery_s), [this] { return found(); })) return;
+      if (runtime::stop_requested()) break;
+      if (runtime::stops_crane(wanted_.kind) && left_s > kReportEvery_s)
+        std::cerr << "still searching for the supervisor" << without_bus(wanted_.kind) << '\n';
+    }
     if (heard_supervisor_ && heard_planner() && probe_at_ns_ > 0)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
                      " s: check that its ticks advance (crane status)" + without_bus(wanted_.kind));
@@ -131,6 +139,14 @@ bus::Bus open_bus_for(crane_RequestKind kind, const runtime::BusOptions& options
 }
 
 std::string client_name() { return "crane " + std::to_string(::getpid()); }
+
+Patience patience_for(crane_RequestKind kind, bool keys) {
+  return keys && runtime::stops_crane(kind) ? kStopWithKeys : Patience{};
+}
+
+Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted) {
+  return ask(bus, wanted, patience_for(wanted.kind, bus.options().credentials.has_value()));
+}
 
 Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience) {
   Conversation conversation{bus, wanted};

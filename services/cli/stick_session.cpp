@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cli/move_follower.hpp"
 #include "crane/runtime/node.hpp"
 #include "crane/supervisor/states.hpp"
 
@@ -51,10 +52,11 @@ void StickSession::receive() {
   receive_states();
   while (const auto status = statuses_.take()) {
     if (status->move.request_id != id_) {
-      if (accepted_) throw std::runtime_error("jog: replaced by a later move");
+      if (accepted_) throw std::runtime_error("jog: " + reason_of_replacement(number_, status->move));
       continue;  // sent before the session was accepted
     }
     accepted_ = true;
+    number_ = status->move.number;
     if (status->state != crane_STATE_HOLD && status->state != crane_STATE_RUN) {
       const auto cause = static_cast<supervisor::Cause>(status->cause);
       throw std::runtime_error(std::string{"jog: stopped because of "} + supervisor::name_of(cause) + ": " +

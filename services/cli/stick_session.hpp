@@ -55,6 +55,7 @@ class StickSession {
   bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::State> states_;
   std::uint64_t id_ = 0, tick_ = 0;
+  std::uint64_t number_ = 0;  ///< AcceptedMove.number of the session
   bool accepted_ = false, begins_ = true;
   int hold_ticks_ = 0;
   std::int64_t send_at_ns_ = 0;

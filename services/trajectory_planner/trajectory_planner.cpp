@@ -20,6 +20,11 @@ using runtime::Context;
 /// reference.
 constexpr double kWaitShare = 0.8;
 
+/// States in which the brakes are open and the axes follow the reference.
+bool follows_reference(crane_SupervisorState state) {
+  return state == crane_STATE_HOLD || state == crane_STATE_RUN || state == crane_STATE_STOP_C1;
+}
+
 MoveTarget target_of(const msg::AcceptedMove& request) {
   MoveTarget move;
   for (std::size_t i = 0; i < control::kAxes; ++i) {
@@ -64,7 +69,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   /// a gap.
   bool on_idle(std::int64_t /*now_ns*/) override {
     const auto* state = open_leader();
-    if (state == nullptr || published_ == state->header.tick) return false;
+    if (withheld_ || state == nullptr || published_ == state->header.tick) return false;
     if (!published_) motion_.follow(runtime::measurement(*state), state->header.tick);
     publish(*state, state->header.tick);
     return true;
@@ -81,10 +86,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       supervisor_epoch_ = status->header.epoch;
       leave_obsolete_moves(status->move);
     }
-    if (missing_statuses_ >= stale_after_ticks_) {
-      supervisor_ = crane_STATE_BOOT;
-      known_moves_.reset();
-    }
+    if (missing_statuses_ == stale_after_ticks_) lose_supervisor();
+    withheld_ = withheld_ && (status == nullptr || follows_reference(status->state));
+    if (withheld_) return;
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
     // A planner that starts while the crane is armed begins its reference at the measured position.
@@ -111,6 +115,20 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
+  /// Without the supervisor, the planner knows neither the accepted move nor a stop. It then withholds the
+  /// reference of an armed crane, so that the supervisor stops the crane (DEMAND_STALE), until a status shows
+  /// that the crane has stopped.
+  void lose_supervisor() {
+    withheld_ = follows_reference(supervisor_);
+    if (withheld_)
+      node().warning("supervisor_lost",
+                     "no status of the supervisor arrives: the reference ends, and the crane stops",
+                     "check the connection between the trajectory planner and the supervisor "
+                     "(`crane doctor --net`)");
+    supervisor_ = crane_STATE_BOOT;
+    known_moves_.reset();
+  }
+
   /// Discards a move when the supervisor is not in RUN. The supervisor enters RUN with an accepted move and
   /// leaves RUN when the crane stops or the planner does not begin: a planner that was paused must not
   /// execute the move after the next arming. Moves of unknown age are also obsolete: those of the first
@@ -262,6 +280,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::array<double, control::kAxes> homing_speed_{}, deflection_{};
   bool homing_ = false;
   int missing_statuses_ = 0;
+  bool withheld_ = false;  ///< true: no reference is published
   bool stopping_ = false;
   std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
   std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or obsolete

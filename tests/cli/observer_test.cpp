@@ -1,17 +1,12 @@
-/// Tools beside a running crane, over the memory bus: recorder, snapshot, requests.
+/// Tools that listen to a running crane, over the memory bus: recorder, snapshot.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <sstream>
-#include <thread>
 
 #include "cli/log_export.hpp"
-#include "cli/move_follower.hpp"
-#include "cli/operator_request.hpp"
 #include "cli/sample_json.hpp"
 #include "cli/snapshot.hpp"
-#include "cli/stick_session.hpp"
 #include "crane/recording/loss.hpp"
 #include "recorder/recorder.hpp"
 #include "temporary_directory.hpp"
@@ -157,126 +152,6 @@ TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
 }
 
 TEST_F(Observers, SnapshotWithoutACraneIsEmpty) { EXPECT_TRUE(listen(tool_, 0.01).empty()); }
-
-enum class Planner : std::uint8_t { absent, deaf, listening };
-
-/// A process that gives the same answer to every request, remains in HOLD, and publishes the status of a
-/// supervisor and the reference of a planner.
-class FakeSupervisor {
- public:
-  FakeSupervisor(bus::Bus& bus, bool accepts, Planner planner = Planner::absent)
-      : bus_{bus}, thread_{[this, accepts, planner] { run(accepts, planner); }} {}
-  ~FakeSupervisor() {
-    done_ = true;
-    thread_.join();
-  }
-  FakeSupervisor(const FakeSupervisor&) = delete;
-  FakeSupervisor& operator=(const FakeSupervisor&) = delete;
-
- private:
-  void run(bool accepts, Planner planner) {
-    auto requests = bus_.subscriber(topics::request);
-    auto replies = bus_.publisher(topics::reply);
-    auto statuses = bus_.publisher(topics::supervisor);
-    auto references = bus_.publisher(topics::reference);
-    msg::SupervisorStatus status{};
-    status.state = crane_STATE_HOLD;
-    msg::Reference reference{};
-    while (!done_) {
-      EXPECT_TRUE(statuses.publish(status));
-      if (planner != Planner::absent) {
-        EXPECT_TRUE(references.publish(reference));
-      }
-      bus_.wait(std::chrono::milliseconds{1});
-      while (const auto request = requests.take()) {
-        msg::Reply reply{};
-        reply.request_id = request->id;
-        runtime::assign(reply.client, request->client);
-        reply.accepted = accepts;
-        runtime::assign(reply.reason, accepts ? "" : "the crane is LOCKED");
-        EXPECT_TRUE(replies.publish(reply));
-        if (accepts) {
-          status.move.request_id = request->id;
-          ++status.move.number;
-        }
-        if (accepts && planner == Planner::listening) reference.move_number = status.move.number;
-      }
-    }
-  }
-  bus::Bus& bus_;
-  std::atomic<bool> done_ = false;
-  std::thread thread_;
-};
-
-TEST_F(Observers, RequestIsAnsweredByTheSupervisor) {
-  const FakeSupervisor supervisor{crane_, true};
-  EXPECT_TRUE(ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 10, .reply_s = 10}).accepted);
-  EXPECT_TRUE(ask(tool_, {.kind = crane_REQUEST_STOP}, {.find_s = 10, .reply_s = 10}).accepted);
-}
-
-TEST_F(Observers, RefusalCarriesItsReason) {
-  const FakeSupervisor supervisor{crane_, false};
-  const auto answer = ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 10, .reply_s = 10});
-  EXPECT_FALSE(answer.accepted);
-  EXPECT_EQ(answer.reason, "the crane is LOCKED");
-}
-
-TEST_F(Observers, SessionOfTheStickIsNotRequestedBeforeAStateHasArrived) {
-  const FakeSupervisor supervisor{crane_, true, Planner::listening};
-  auto requests = crane_.subscriber(topics::request);
-  StickSession session{tool_};
-  EXPECT_THROW((void)session.begin({true, false, false}, {.find_s = 0.05, .reply_s = 10}), NoAnswer);
-  EXPECT_FALSE(requests.take());
-}
-
-TEST_F(Observers, EverySampleOfTheStickContainsTheTickOfAState) {
-  const FakeSupervisor supervisor{crane_, true, Planner::listening};
-  auto jogs = crane_.subscriber(topics::jog);
-  auto states = crane_.publisher(topics::state);
-  StickSession session{tool_};
-  msg::State state{};
-  state.header.tick = 4711;
-  ASSERT_TRUE(states.publish(state));
-  ASSERT_TRUE(session.begin({true, false, false}, {.find_s = 10, .reply_s = 10}).accepted);
-  session.drive(
-      0.05, false,
-      [] {
-        return Deflection{1, 0, 0};
-      },
-      [] { return false; });
-  int samples = 0;
-  for (; const auto sample = jogs.take(); ++samples) EXPECT_EQ(sample->header.tick, 4711U);
-  EXPECT_GT(samples, 0);
-}
-
-TEST_F(Observers, RequestWithoutASupervisorNamesTheSearchedCrane) {
-  EXPECT_THAT([&] { (void)ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 0.01, .reply_s = 0.01}); },
-              testing::ThrowsMessage<NoAnswer>(
-                  testing::AllOf(HasSubstr("'crane'"), HasSubstr("domain 0"), HasSubstr("--interface"))));
-}
-
-constexpr Patience kPatience{.find_s = 10, .reply_s = 10};
-const stack::OperatorRequest kMove{.kind = crane_REQUEST_MOVE, .selected = {true}, .target = {1.0}};
-
-TEST_F(Observers, MoveEndsWhenThePlannerHasExecutedItAndTheCraneIsInHold) {
-  const FakeSupervisor supervisor{crane_, true, Planner::listening};
-  MoveFollower follower{tool_};
-  EXPECT_NO_THROW(follower.follow(ask(tool_, kMove, kPatience).id, 10));
-}
-
-TEST_F(Observers, MoveThatThePlannerDoesNotReceiveFails) {
-  const FakeSupervisor supervisor{crane_, true, Planner::deaf};
-  MoveFollower follower{tool_};
-  const auto id = ask(tool_, kMove, kPatience).id;
-  EXPECT_THAT([&] { follower.follow(id, 10); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr(
-                                                    "the trajectory planner has not executed the move")));
-}
-
-TEST_F(Observers, MoveIsNotSentBeforeThePlannerIsFound) {
-  const FakeSupervisor supervisor{crane_, true, Planner::absent};
-  EXPECT_THAT([&] { (void)ask(tool_, kMove, {.find_s = 0.2, .reply_s = 10}); },
-              testing::ThrowsMessage<NoAnswer>(HasSubstr("no trajectory planner")));
-}
 
 TEST(SampleJson, FieldSelectsALeafOrAllLeavesBelowIt) {
   const msg::Reference reference{};

@@ -38,6 +38,10 @@ TEST(DirectoryLock, IsRefusedAtOnceWhenAnotherProgramHasIt) {
               testing::ThrowsMessage<WriteError>(testing::HasSubstr("another program writes into it")));
 }
 
+TEST(DirectoryLock, OfAFileNameWithoutDirectoryLocksThePresentDirectory) {
+  EXPECT_NO_THROW(DirectoryLock{std::filesystem::path{"rig.toml"}.parent_path()});
+}
+
 TEST(DirectoryLock, NamesADirectoryThatDoesNotExist) {
   EXPECT_THROW(DirectoryLock{"/does/not/exist"}, WriteError);
 }

@@ -29,10 +29,14 @@ class PlannerComponent : public testing::Test {
     return newest();
   }
   [[nodiscard]] msg::Reference newest() {
-    std::optional<msg::Reference> newest;
-    while (const auto sample = output_.take()) newest = sample;
+    const auto newest = newest_if_any();
     if (!newest) throw std::runtime_error{"no reference"};
     return *newest;
+  }
+  [[nodiscard]] std::optional<msg::Reference> newest_if_any() {
+    std::optional<msg::Reference> newest;
+    while (const auto sample = output_.take()) newest = sample;
+    return newest;
   }
   /// In the tick of the acceptance the supervisor is in RUN.
   void accept(std::uint64_t number, double trolley_m) {
@@ -141,11 +145,14 @@ class PlannerInRealTime : public PlannerComponent {
   PlannerInRealTime() : PlannerComponent{runtime::Clock::realtime} {}
 
   /// Runs one tick in which no status of the supervisor arrives.
-  [[nodiscard]] msg::Reference tick_without_status() {
+  [[nodiscard]] std::optional<msg::Reference> tick_without_status() {
     bench_.publish(topics::state, crane_SOURCE_PLANT, state_at(++tick_));
     bench_.step();
     bench_.step_after(9'000'000);
-    return newest();
+    return newest_if_any();
+  }
+  void lose_the_supervisor() {
+    for (int k = 0; k < 5; ++k) (void)tick_without_status();
   }
 };
 
@@ -159,8 +166,34 @@ TEST_F(PlannerInRealTime, ExecutesAMoveWhoseFirstStatusIsLost) {
 TEST_F(PlannerInRealTime, DoesNotExecuteAMoveThatItReceivesAfterALongGapOfTheStatus) {
   (void)tick();
   accept(1, 0.9);
-  for (int k = 0; k < 5; ++k) (void)tick_without_status();
+  lose_the_supervisor();
+  state_ = crane_STATE_LOCKED;
   EXPECT_EQ(tick().axis[0].position, 0.5);
+  state_ = crane_STATE_RUN;
+  EXPECT_EQ(tick().axis[0].position, 0.5);
+}
+
+/// Without a reference there is no demand, and the supervisor stops the crane. A reference that followed the
+/// measured position would end the move as if its target were reached.
+TEST_F(PlannerInRealTime, WithholdsTheReferenceOfAnArmedCraneWithoutSupervisorUntilTheCraneHasStopped) {
+  for (const auto armed : {crane_STATE_HOLD, crane_STATE_RUN, crane_STATE_STOP_C1}) {
+    state_ = armed;
+    (void)tick();
+    lose_the_supervisor();
+    EXPECT_FALSE(tick_without_status()) << "state " << armed;
+    EXPECT_THROW((void)tick(), std::runtime_error) << "state " << armed;
+    state_ = crane_STATE_LOCKED;
+    EXPECT_EQ(tick().axis[0].position, 0.5) << "state " << armed;
+  }
+}
+
+TEST_F(PlannerInRealTime, PublishesThePositionOfALockedCraneWithoutSupervisor) {
+  state_ = crane_STATE_LOCKED;
+  (void)tick();
+  lose_the_supervisor();
+  const auto reference = tick_without_status();
+  ASSERT_TRUE(reference);
+  EXPECT_EQ(reference->axis[0].position, 0.5);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ namespace crane::configuration {
 void read_limits(TomlTable& root, Rig& rig) {
   TomlTable table = root.table("limits");
   read_section(table, control::kOperatingLimitFields, rig.limits, &rig);
-  check_plausible_limits(table, rig.limits);
+  check_plausible_limits(table, rig);
 }
 
 void read_start(TomlTable& root, Rig& rig) {

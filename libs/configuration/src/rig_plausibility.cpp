@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "crane/control/controlled_stop.hpp"
 #include "crane/fields/shortest.hpp"
 #include "crane/plant/pendulum.hpp"
 #include "rig_sections.hpp"
@@ -22,11 +23,10 @@ constexpr double kMostAngle_rad = kMostTurns * 2 * std::numbers::pi;
 constexpr double kMostAcceleration = 5000;
 /// m/s: the fastest mine hoists reach 20 m/s.
 constexpr double kMostCableSpeed_mps = 100;
-/// s: time after which the supervisor replaces a controlled stop by a ramped one (STOP_TIMEOUT,
-/// docs/safety.md).
-constexpr double kControlledStop_s = 8;
 /// Share of the error that a sampled loop can correct in one tick: above 2 the next error is larger.
 constexpr double kMostCorrection = 2;
+/// Counts of the swing encoder up to the swing limit: a load at rest between two counts shows one of them.
+constexpr double kLeastSwingCounts = 2;
 /// s: an operator reacts to a light after about 0.25 s.
 constexpr double kLeastIdle_s = 0.5;
 
@@ -58,11 +58,12 @@ void check_plausible_drive(TomlTable& table, const plant::Coordinate& axis, cons
   if (drive.brake_deceleration > kMostAcceleration)
     table.problem(limit("brake_deceleration"), at_most(kMostAcceleration, unit + "/s²") +
                                                    ": no brake of a crane is stronger; is the unit right?");
-  if (const double least_vps = drive.volt_limit_v / kControlledStop_s; drive.volt_rate_limit_vps < least_vps)
+  if (const double least_vps = drive.volt_limit_v / control::kControlledStop_s;
+      drive.volt_rate_limit_vps < least_vps)
     table.problem(limit("volt_rate_limit_vps"),
                   "must be at least " + shortest(least_vps) +
                       " V/s: the voltage must be able to return to 0 within the " +
-                      shortest(kControlledStop_s) + " s of a controlled stop; is this V per tick?");
+                      shortest(control::kControlledStop_s) + " s of a controlled stop; is this V per tick?");
 }
 
 void check_plausible_gains(TomlTable& table, const plant::Parameters& crane, const Rig& rig) {
@@ -92,7 +93,17 @@ void check_plausible_loops(TomlTable& table, const control::Design& design) {
   check("hoist_proportional_ps", design.hoist_proportional_ps, "the cable loop");
 }
 
-void check_plausible_limits(TomlTable& table, const control::OperatingLimits& limits) {
+void check_plausible_limits(TomlTable& table, const Rig& rig) {
+  const control::OperatingLimits& limits = rig.limits;
+  for (const std::size_t swing : {plant::kSwingRadial, plant::kSwingTangential}) {
+    if (!rig.measures(swing)) continue;
+    const double least_rad = kLeastSwingCounts / rig.encoders[swing].counts_per_unit;
+    if (limits.swing_limit_rad < least_rad)
+      table.problem("swing_limit_rad", "must be at least " + shortest(least_rad) + " rad, " +
+                                           shortest(kLeastSwingCounts) + " counts of [encoder." +
+                                           plant::kCoordinates[swing].name +
+                                           "]: the encoder must show the swing before it exceeds the limit");
+  }
   if (limits.idle_lock_s > 0 && limits.idle_lock_s < kLeastIdle_s)
     table.problem("idle_lock_s", "must be at least " + shortest(kLeastIdle_s) +
                                      " s: an operator needs this time to request a move before the crane "
@@ -130,8 +141,8 @@ std::string implausible_values() {
          acceleration +
          " m/s² or rad/s² | as for the motor |\n"
          "| `volt_rate_limit_vps` | at least `volt_limit_v` / " +
-         shortest(kControlledStop_s) + " s | a controlled stop, which lasts at most " +
-         shortest(kControlledStop_s) +
+         shortest(control::kControlledStop_s) + " s | a controlled stop, which lasts at most " +
+         shortest(control::kControlledStop_s) +
          " s, must be able to end with 0 V |\n"
          "| `tracking_derivative` | `tracking_derivative` `period_s` / T at most " +
          shortest(kMostCorrection) +
@@ -140,6 +151,9 @@ std::string implausible_values() {
          "| `hoist_proportional_ps` | times `period_s` at most " +
          shortest(kMostCorrection) +
          " | the same for the cable loop |\n"
+         "| `swing_limit_rad` | at least " +
+         shortest(kLeastSwingCounts) +
+         " counts of each swing encoder | the encoder must show the swing before it exceeds the limit |\n"
          "| `idle_lock_s` | at least " +
          shortest(kLeastIdle_s) +
          " s | an operator needs this time to request a move |\n"

@@ -28,7 +28,7 @@ void check_plausible_drive(TomlTable& table, const plant::Coordinate& axis, cons
 /// @param crane  [plant] or [controller.believes]
 void check_plausible_gains(TomlTable& table, const plant::Parameters& crane, const Rig& rig);
 void check_plausible_loops(TomlTable& table, const control::Design& design);
-void check_plausible_limits(TomlTable& table, const control::OperatingLimits& limits);
+void check_plausible_limits(TomlTable& table, const Rig& rig);
 void check_repeated_term(TomlTable& table, const std::vector<plant::TermSetting>& earlier,
                          const plant::TermSetting& term);
 /// The table of these rules for docs/rig_file.md.

@@ -12,7 +12,7 @@
 namespace crane::files {
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, IfLocked if_locked)
-    : descriptor_{::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
+    : descriptor_{::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)} {
   const int wait = if_locked == IfLocked::fail ? LOCK_NB : 0;
   if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | wait) == 0) return;
   const bool used = errno == EWOULDBLOCK;

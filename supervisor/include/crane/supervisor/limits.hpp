@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/control/controlled_stop.hpp"
 #include "crane/control/drive_limits.hpp"
 #include "crane/control/filters.hpp"
 #include "crane/control/operating_limits.hpp"
@@ -60,7 +61,8 @@ struct Limits : control::OperatingLimits {
   double longest_wait_for_motion_s = 1;
   double standstill_time_s = 0.1;  ///< time near one position that counts as standstill, > 0
   double c1_ramp_time_s = 0.02;    ///< duration of the ramp from full voltage to 0 V, in [0, 0.02]
-  double stop_timeout_s = 8;       ///< longest controlled stop; a ramped stop follows, > 0
+  double stop_timeout_s =
+      control::kControlledStop_s;  ///< longest controlled stop; a ramped stop follows, > 0
   double arm_match_time_s = 5;     ///< longest wait of ARMING for a demand near zero and a ready bridge, > 0
   double arm_volt_limit_v = 2.5;   ///< largest demand that counts as near zero, > 0
   /// longest time until a brake reports open, longer than its opening time, > 0
