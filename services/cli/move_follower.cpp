@@ -29,12 +29,14 @@ std::string reason_of_replacement(std::uint64_t number, const msg::AcceptedMove&
 MoveFollower::MoveFollower(bus::Bus& bus)
     : bus_{bus},
       statuses_{bus.subscriber(topics::supervisor)},
-      references_{bus.subscriber(topics::reference)} {}
+      references_{bus.subscriber(topics::reference)},
+      states_{bus.subscriber(topics::state)} {}
 
 bool MoveFollower::over(std::uint64_t id) {
   while (const auto reference = references_.take()) {
     if (move_.number > 0 && reference->move_number == move_.number) reference_ = *reference;
   }
+  while (const auto state = states_.take()) state_ = *state;
   while (const auto status = statuses_.take()) {
     if (status->move.request_id != id) {
       if (accepted_) throw std::runtime_error("move: " + reason_of_replacement(move_.number, status->move));
@@ -73,14 +75,26 @@ bool MoveFollower::follow_until(std::uint64_t id, double timeout_s, const std::f
 }
 
 void MoveFollower::require_target() const {
-  constexpr double kTolerance = 1e-3;  // m or rad
-  for (std::size_t i = 0; move_.kind == crane_REQUEST_MOVE && i < control::kAxes; ++i)
-    if (move_.selected[i] && std::abs(reference_->axis[i].position - move_.target[i]) > kTolerance)
-      throw std::runtime_error("move: ended before the target: the reference of the " +
-                               std::string{plant::kCoordinates[i].name} + " axis is " +
-                               fields::shortest(reference_->axis[i].position) + " instead of " +
-                               fields::shortest(move_.target[i]) +
-                               "; `crane log` or the events of the trajectory planner state the reason");
+  constexpr double kSameReference = 1e-3;  // m or rad
+  constexpr double kAtTarget = 0.02;       // m or rad: twice the band in which the planner ends a move
+  if (move_.kind != crane_REQUEST_MOVE) return;
+  const std::array measured{state_ ? state_->trolley_position_m : 0, state_ ? state_->slew_angle_rad : 0,
+                            state_ ? state_->cable_length_m : 0};
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    if (!move_.selected[i]) continue;
+    const auto& axis = plant::kCoordinates[i];
+    const auto place = [&axis](double value) { return fields::shortest(value) + " " + axis.unit; };
+    const std::string target = place(move_.target[i]);
+    if (std::abs(reference_->axis[i].position - move_.target[i]) > kSameReference)
+      throw std::runtime_error(std::string{"move: ended before the target: the reference of the "} +
+                               axis.name + " axis is " + place(reference_->axis[i].position) +
+                               " instead of " + target);
+    if (state_ && std::abs(measured[i] - move_.target[i]) > kAtTarget)
+      throw std::runtime_error(std::string{"move: the "} + axis.name + " axis rests at " +
+                               place(std::round(1e3 * measured[i]) / 1e3) + " instead of " + target +
+                               ": the drive does not overcome the friction; check the rail and "
+                               "[controller.friction] of the rig file");
+  }
 }
 
 }  // namespace crane::cli

@@ -21,7 +21,8 @@ class MoveFollower {
   /// @param id         id of the accepted request
   /// @param timeout_s  longest wait
   /// @throws std::runtime_error with the reason: the crane stopped, another move replaced this one, the
-  ///   planner did not execute the move or ended it before the target, or timeout
+  ///   planner did not execute the move or ended it before the target, an axis rests away from the target, or
+  ///   timeout
   void follow(std::uint64_t id, double timeout_s);
   /// Waits like follow(), until `stopped` returns true at the latest.
   /// @return true at the end of the move; false after a stop signal, at the timeout, or when `stopped`
@@ -33,14 +34,17 @@ class MoveFollower {
   /// @return true when the supervisor has been in HOLD for enough ticks. @throws std::runtime_error
   bool over(std::uint64_t id);
 
-  /// @throws std::runtime_error if the last reference is not the target of the move
+  /// @throws std::runtime_error if the last reference is not the target of the move, or an axis rests away
+  ///   from it
   void require_target() const;
 
   bus::Bus& bus_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::Reference> references_;
+  bus::Subscriber<msg::State> states_;
   msg::AcceptedMove move_{};                 ///< number 0: not accepted yet
   std::optional<msg::Reference> reference_;  ///< newest one that executes the move
+  std::optional<msg::State> state_;          ///< newest
   bool accepted_ = false;                    ///< true: the supervisor has published this move
   int held_ticks_ = 0;
 };

@@ -261,9 +261,17 @@ control::Reference Motion::on_path(std::uint64_t tick) const noexcept {
   return reference;
 }
 
+bool Motion::is_near(const control::Measurement& measured, std::uint64_t tick) const noexcept {
+  constexpr double kBand = 0.01;  // m, rad
+  const auto reference = at(tick);
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (rig_.drives[i].present && std::abs(measured.position[i] - reference[i].position) > kBand)
+      return false;
+  return true;
+}
+
 bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept {
   if (creeping_ || (stick_.follows && !control::at_rest(stick_.memory))) return false;
-  constexpr double kBand = 0.01;     // largest distance from the reference, m, rad
   constexpr double kSlow = 0.01;     // largest speed, m/s, rad/s
   constexpr double kLongest_s = 20;  // longest wait; friction may hold an axis outside the band
   const double profile_s = planned_ ? planned_->plan.duration_s
@@ -274,13 +282,10 @@ bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) c
                                       : profile_s + shaper_.delay_s();
   if (time_s(tick) > end_s + kLongest_s) return true;
   const auto reference = at(tick);
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    if (!rig_.drives[i].present) continue;
-    if (reference[i].speed != 0 || std::abs(measured.position[i] - reference[i].position) > kBand ||
-        std::abs(measured.speed[i]) > kSlow)
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (rig_.drives[i].present && (reference[i].speed != 0 || std::abs(measured.speed[i]) > kSlow))
       return false;
-  }
-  return time_s(tick) >= end_s;
+  return time_s(tick) >= end_s && is_near(measured, tick);
 }
 
 }  // namespace crane::services

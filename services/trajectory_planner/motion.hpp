@@ -62,8 +62,10 @@ class Motion {
   void drive(const std::array<double, control::kAxes>& deflection, std::uint64_t tick) noexcept;
   /// Reference at `tick`; while following a stick, the reference of the last drive().
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
-  /// True when the reference has ended and the crane is at rest within 10 mm or 10 mrad of it; at the latest
-  /// 20 s after the end of the reference.
+  /// Whether every axis is within 10 mm or 10 mrad of the reference.
+  [[nodiscard]] bool is_near(const control::Measurement& measured, std::uint64_t tick) const noexcept;
+  /// True when the reference has ended and the crane is at rest near it; at the latest 20 s after the end of
+  /// the reference.
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
 
  private:

@@ -245,6 +245,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     sample.second_writer = disputed();
     sample.configuration = configuration();
     sample.moving = pending_ || waiting_ || !motion_.arrived(measured, tick);
+    if (moving_ && !sample.moving && follows_reference(supervisor_) && !motion_.is_near(measured, tick))
+      node().warning("target_not_reached", "the crane rests away from the target of the move",
+                     "check the rail, and the friction of the drives in the rig file");
+    moving_ = sample.moving;
     output_.publish(sample);
     published_ = tick;
   }
@@ -281,6 +285,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   bool homing_ = false;
   int missing_statuses_ = 0;
   bool withheld_ = false;  ///< true: no reference is published
+  bool moving_ = false;    ///< Reference.moving of the last reference
   bool stopping_ = false;
   std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
   std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or obsolete

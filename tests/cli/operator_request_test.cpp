@@ -157,7 +157,19 @@ TEST_F(OperatorTool, MoveThatThePlannerEndsBeforeTheTargetFails) {
   const auto id = ask(tool_, kMove, kPatience).id;
   EXPECT_THAT([&] { follower.follow(id, 10); },
               testing::ThrowsMessage<std::runtime_error>(testing::AllOf(
-                  HasSubstr("ended before the target"), HasSubstr("trolley axis is 0 instead of 1"))));
+                  HasSubstr("ended before the target"), HasSubstr("trolley axis is 0 m instead of 1 m"))));
+}
+
+TEST_F(OperatorTool, MoveOfAnAxisThatRestsAwayFromItsTargetFails) {
+  const FakeSupervisor supervisor{crane_, true, Planner::listening};
+  MoveFollower follower{tool_};
+  auto states = crane_.publisher(topics::state);
+  msg::State state{};
+  state.trolley_position_m = 0.7;
+  ASSERT_TRUE(states.publish(state));
+  const auto id = ask(tool_, kMove, kPatience).id;
+  EXPECT_THAT([&] { follower.follow(id, 10); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("rests at 0.7 m instead of 1 m")));
 }
 
 TEST(MoveFollowing, DistinguishesALaterMoveFromARestartedSupervisor) {
