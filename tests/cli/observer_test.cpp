@@ -8,6 +8,7 @@
 #include "cli/sample_json.hpp"
 #include "cli/snapshot.hpp"
 #include "crane/recording/loss.hpp"
+#include "crane/runtime/process.hpp"
 #include "recorder/recorder.hpp"
 #include "temporary_directory.hpp"
 

@@ -52,7 +52,7 @@ TEST(RigFile, EitherLoadsOrNamesTheLineAfterAnyChangeOfOneLine) {
     const std::string text = spoiled(random, lines);
     try {
       const Rig rig = parse_rig(text, "rig.toml");
-      ASSERT_THAT(control::problems(rig.design), IsEmpty()) << text;
+      ASSERT_THAT(control::problems(rig.design), testing::IsEmpty()) << text;
       ++loaded;
     } catch (const ConfigurationError& error) {
       ASSERT_FALSE(error.problems().empty());
