@@ -92,9 +92,9 @@ class Conversation {
     constexpr std::int64_t kProbeEvery_ns = 50'000'000;
     hear_supervisor();
     while (planner_ && planner_->take()) heard_reference_ = true;
-    if (client_.listeners() == 0 || client_.answerers() == 0) return false;
+    if (client_.listeners() == 0) return false;
     if (runtime::is_urgent_stop(wanted_.kind)) return true;
-    if (!heard_supervisor_ || !heard_planner()) return false;
+    if (client_.answerers() == 0 || !heard_supervisor_ || !heard_planner()) return false;
     client_.receive();
     if (client_.take_reply(stack::OperatorClient::kProbe, crane_SOURCE_SUPERVISOR)) return true;
     if (const auto now_ns = runtime::monotonic_ns(); now_ns >= probe_at_ns_) {
@@ -151,7 +151,9 @@ Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted) {
 Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience) {
   Conversation conversation{bus, wanted};
   conversation.find_listeners(patience.find_s);
-  return conversation.exchange(patience.reply_s);
+  // A stop is sent before the writer of the replies is found.
+  return conversation.exchange(patience.reply_s +
+                               (runtime::is_urgent_stop(wanted.kind) ? patience.find_s : 0));
 }
 
 bool stop_crane(bus::Bus& bus, double patience_s) {

@@ -42,7 +42,7 @@ inline constexpr Patience kStopWithKeys{.find_s = 60, .reply_s = 10};
 [[nodiscard]] Patience patience_for(crane_RequestKind kind, bool keys);
 
 /// Sends the request and waits for the answer. A stop or emergency stop is sent as soon as crane/request has
-/// a reader and crane/reply a writer, and is repeated every 100 ms until the answer. Any other request is
+/// a reader, and is repeated every 100 ms until the answer. Any other request is
 /// sent once, after the supervisor has answered a probe; a move or a session of the stick also waits for a
 /// sample of crane/reference.
 /// @param wanted  without `newest_status`, the request names the newest status that this program receives;

@@ -66,11 +66,14 @@ void Motion::follow(const control::Measurement& measured, std::uint64_t tick) no
     trajectory_[i] = control::step_profile(measured.position[i], measured.position[i]);
 }
 
-control::AxisProfile Motion::planned(std::size_t axis, double start, double target) const {
-  const bool steps = shape_ == control::ReferenceShape::step && axis != control::kHoist;
-  if (steps || target == start) return control::step_profile(start, target);
+control::AxisProfile Motion::planned(std::size_t axis, double start, double target,
+                                     const ProfileLimits& profile) const {
+  if ((profile.steps && axis != control::kHoist) || target == start)
+    return control::step_profile(start, target);
   const auto& drive = rig_.drives[axis];
-  control::AxisLimits limits{.speed = drive.reference_speed, .acceleration = drive.reference_acceleration};
+  control::AxisLimits limits{
+      .speed = axis == control::kSlew ? profile.slew_speed_radps : drive.reference_speed,
+      .acceleration = drive.reference_acceleration};
   if (rig_.planning.limits_jerk) limits.jerk = drive.reference_jerk;
   return control::limited_profile(start, target, limits);
 }
@@ -85,8 +88,9 @@ control::Shaper Motion::shaper(control::Shaping shaping, double cable_m) const {
 
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {
   const auto now = at(tick);
+  const ProfileLimits limits = profile_limits(rig_, shape_, now, move);
   for (std::size_t i = 0; i < kAxes; ++i)
-    trajectory_[i] = planned(i, now[i].position, move.selected[i] ? move.target[i] : now[i].position);
+    trajectory_[i] = planned(i, now[i].position, move.selected[i] ? move.target[i] : now[i].position, limits);
   trajectory_ = control::synchronised(trajectory_);
   const bool swings =
       trajectory_[control::kTrolley].duration_s() > 0 || trajectory_[control::kSlew].duration_s() > 0;

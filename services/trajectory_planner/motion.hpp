@@ -13,14 +13,9 @@
 #include "crane/control/stick.hpp"
 #include "crane/control/time_optimal.hpp"
 #include "crane/control/trajectory.hpp"
+#include "trajectory_planner/profile_limits.hpp"
 
 namespace crane::services {
-
-/// Target of a move. The reference of an axis that is not selected does not change.
-struct MoveTarget {
-  std::array<bool, control::kAxes> selected{};
-  std::array<double, control::kAxes> target{};  ///< m, rad, m of cable
-};
 
 class Motion {
  public:
@@ -77,7 +72,8 @@ class Motion {
   struct Creeping {
     std::array<double, control::kAxes> speed{}, start{};
   };
-  [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target) const;
+  [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target,
+                                             const ProfileLimits& profile) const;
   /// Cable length within the range of the rig file: > 0 also without a load, where the measured length is 0.
   [[nodiscard]] double usable_cable_m(double cable_m) const noexcept;
   [[nodiscard]] control::Shaper shaper(control::Shaping shaping, double cable_m) const;

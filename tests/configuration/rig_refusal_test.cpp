@@ -198,13 +198,20 @@ INSTANTIATE_TEST_SUITE_P(
                    "must be at least 1.25 V/s"},
         Corruption{"tracking_gain", "[controller]", "tracking_derivative = 20.0",
                    "tracking_derivative = 1000.0", "would correct 5 times the error in one tick"},
-        Corruption{"swing_limit", "[encoder.swing_radial]", "counts_per_rad = 3819.718634205488",
-                   "counts_per_rad = 1", "must be at least 2 rad, 2 counts of [encoder.swing_radial]"},
         Corruption{"idle_lock", "[limits]", "idle_lock_s = 60.0", "idle_lock_s = 1e-9",
                    "must be at least 0.5 s"},
         Corruption{"slew_friction_unit", "[controller.friction.slew]", "viscous_positive_vsprad",
                    "viscous_positive_vspm", "unit must be vsprad"}),
     [](const auto& entry) { return std::string(entry.param.name); });
+
+TEST(RigFile, RefusesASwingLimitBelowTwoCountsOfTheEncoder) {
+  ChangedTower tower;
+  tower.change("[encoder.swing_radial]", "counts_per_rad = 3819.718634205488", "counts_per_rad = 1");
+  EXPECT_THAT(problems_of(tower.text()),
+              ElementsAre(testing::AllOf(
+                  testing::StartsWith(tower.line("[limits]", "swing_limit_rad")),
+                  testing::HasSubstr("must be at least 2 rad, 2 counts of [encoder.swing_radial]"))));
+}
 
 /// drive_friction is the whole friction of a drive. The other terms are corrections, which may add up.
 TEST(RigFile, RefusesASecondFrictionOfADrive) {

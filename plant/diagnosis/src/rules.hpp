@@ -109,9 +109,9 @@ inline constexpr Rule kCredibleForce{
     "credible_force", 0.03, "1", "maximum rms of the disturbance of the load / its weight",
     "half a newton on two kilograms: wind and hands at a laboratory's crane"};
 inline constexpr Rule kCredibleDrive{
-    "credible_drive", 0.01, "1",
+    "credible_drive", 0.005, "1",
     "maximum rms of the disturbance of a drive / its acceleration at the largest voltage",
-    "torque ripple of servo motors: 1 % of the rated torque"};
+    "a tenth of the friction of a laboratory's axis, 0.5 V of 10 V: cables, rails and bearings"};
 inline constexpr Rule kPattern{"pattern", 0.008, "1", "minimum share of a pattern in the loss of the drives",
                                "read off examples"};
 inline constexpr Rule kPatternLuck{

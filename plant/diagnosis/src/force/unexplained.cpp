@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "force/bins.hpp"
 #include "force/cross_validation.hpp"
@@ -19,6 +20,9 @@ using Eigen::VectorXd;
 
 /// Share of the travel within which a force builds up after a reversal.
 constexpr double kBuildUp = 0.25;
+
+/// Least travel of the other axis for a pattern over its position, m or rad.
+constexpr double kLeastTravel = 0.05;
 
 /// Function of run and row.
 using RowFunction = std::function<double(std::size_t, std::size_t)>;
@@ -49,6 +53,14 @@ std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, d
   return all;
 }
 
+/// Whether the motion of an axis is known in all runs, and the axis moves.
+bool moves(const Runs& runs, Output axis) {
+  return std::ranges::all_of(
+             runs,
+             [axis](const PreparedRun& run) { return run.motion[axis].position.size() == run.run.rows(); }) &&
+         travel_of(runs, axis).width() > kLeastTravel;
+}
+
 std::vector<Variable> variables_of(const Runs& runs, Output axis) {
   const std::string name = axis_of(axis);
   const std::size_t other = axis == kTrolleyPosition ? plant::kSlew : plant::kTrolley;
@@ -69,14 +81,26 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
   const RowFunction other_command = [&runs, other](auto r, auto k) {
     return runs[r].run.command_v[k][other];
   };
-  return {{name + ": position", GoesWith::position, 16, travel, position, push},
-          {name + ": position, closely", GoesWith::position, 64, travel, position, push},
-          {name + ": speed", GoesWith::speed, 12, speeds, speed, push},
-          {name + ": distance since the last reversal", GoesWith::reversals, 13, {-1, 1}, since, push},
-          {name + ": friction by position", GoesWith::position, 16, travel, position, friction},
-          {name + ": friction over time", GoesWith::time, 5, times, time, friction},
-          {name + ": command over time", GoesWith::time, 5, times, time, command},
-          {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
+  std::vector<Variable> all{
+      {name + ": position", GoesWith::position, 16, travel, position, push},
+      {name + ": position, closely", GoesWith::position, 64, travel, position, push},
+      {name + ": speed", GoesWith::speed, 12, speeds, speed, push},
+      {name + ": distance since the last reversal", GoesWith::reversals, 13, {-1, 1}, since, push},
+      {name + ": friction by position", GoesWith::position, 16, travel, position, friction},
+      {name + ": friction over time", GoesWith::time, 5, times, time, friction},
+      {name + ": command over time", GoesWith::time, 5, times, time, command},
+      {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
+  const Output other_axis = axis == kTrolleyPosition ? kSlewAngle : kTrolleyPosition;
+  if (!moves(runs, other_axis)) return all;
+  const Extent other_travel = travel_of(runs, other_axis);
+  const RowFunction other_position = [&runs, other_axis](auto r, auto k) {
+    return runs[r].motion[other_axis].position[k];
+  };
+  for (const auto& [what, force] :
+       {std::pair{": position of the ", push}, {": friction by position of the ", friction}})
+    all.push_back({name + what + axis_of(other_axis), GoesWith::other_position, 8, other_travel,
+                   other_position, force});
+  return all;
 }
 
 /// Forces of a piece, row x bin.

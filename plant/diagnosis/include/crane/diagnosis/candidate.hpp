@@ -29,7 +29,7 @@ struct Shape {
 };
 
 /// Variable that a force on an axis depends on.
-enum class GoesWith { position, speed, reversals, time, other_command, frequency, jumps };
+enum class GoesWith { position, speed, reversals, time, other_position, other_command, frequency, jumps };
 
 struct Candidate {
   std::string cause;                 ///< name of the term
