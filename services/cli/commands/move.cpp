@@ -50,7 +50,7 @@ void add_axis(CLI::App& command, stack::OperatorRequest& wanted, std::size_t axi
 
 void add_move(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<MoveOptions>();
-  auto* command = app.add_subcommand("move", "Move axes to new targets; the other axes do not move");
+  auto* command = app.add_subcommand("move", "Move axes to new targets; the other axes keep their targets");
   add_axis(*command, options->wanted, 0, "--trolley", Dimension::length,
            "trolley position on the jib: 1.05, 105cm");
   add_axis(*command, options->wanted, 1, "--slew", Dimension::angle, "slew angle: 1.57, 90deg");
