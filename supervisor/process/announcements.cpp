@@ -14,8 +14,8 @@ void announce(runtime::Node& node, const Limits& limits, const TickOutput& outpu
                         output.cause == Cause::idle || output.cause == Cause::homed;
   if (output.cause == Cause::homing_failed && output.state == State::stop_c0)  // not again in LOCKED
     node.error("homing_failed",
-               std::string{"homing the "} + plant::kCoordinates[homing_axis].name +
-                   " axis: " + name_of(output.homing_failure),
+               std::string{"homing of the "} + plant::kCoordinates[homing_axis].name +
+                   " axis failed: " + name_of(output.homing_failure),
                remedy_for(output.homing_failure));
   if (output.cause == Cause::zone && output.state == State::stop_c1)
     node.error("zone", "the load could have swung into zone " + limits.zones.at(output.zone).name,

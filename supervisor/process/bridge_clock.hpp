@@ -18,14 +18,15 @@ class BridgeClock {
     begins_anew   ///< kAgreeing samples contradict the earlier ones and agree with each other: the bridge has
                   ///< been restarted
   };
-  /// Samples: at 100 Hz 1 s, longer than the silence that stops an armed crane (20 to 50 ms).
+  /// Number of samples: 1 s at 100 Hz, longer than the silence of 20 to 50 ms that stops an armed
+  /// crane.
   static constexpr int kAgreeing = 100;
 
   explicit BridgeClock(std::int64_t period_ns) : period_ns_{period_ns} {}
 
-  /// @return true when the sample may be used. The bridge latches tick k within the k-th period: the times of
-  /// all its samples minus their ticks times the period lie in an interval shorter than one period. A wrong
-  /// time would disable the checks of speeds and positions, and all time-outs.
+  /// @return true when the sample may be used. The bridge latches tick k within the k-th period.
+  ///   Therefore the deviations (Series) of all samples lie in an interval shorter than one period.
+  ///   A wrong sample time would disable the checks of speeds and positions, and all time-outs.
   [[nodiscard]] bool fits(const msg::Header& header) const {
     return !accepted_ || continued(*accepted_, header) ||
            !protection::enabled(protection::Protection::supervisor_bridge_clock);

@@ -24,8 +24,9 @@ class CommandEcho {
   /// Number of consecutive contradicting states that end the supervisor.
   static constexpr int kContradictions = 2;
   /// Longest time from the last command to open a brake until the brake must be closed. A brake that is open
-  /// after this time has failed to close, or another program has opened the brake. Longer than the detection
-  /// of a brake that does not close: its closing time of at most 0.1 s, and 0.11 s.
+  /// after this time has failed to close, or another program has opened the brake. Longer than the
+  /// detection time of a brake that does not close: at most 0.1 s (closing time) + 0.11 s (rule
+  /// supervisor_brake_did_not_close).
   static constexpr double kBrake_s = 0.5;
 
   /// @param present   axes that have a drive
@@ -63,8 +64,9 @@ class CommandEcho {
     in_a_row_ = first_tick_ && (volts_ || unexplained_brake(state)) ? in_a_row_ + 1 : 0;
     return in_a_row_ >= kContradictions;
   }
-  /// True when the last contradiction was a voltage; false: an open brake.
-  [[nodiscard]] bool is_of_volts() const noexcept { return volts_; }
+  /// Call after contradicts() has returned true. True: the last state showed a voltage that was not
+  /// commanded; false: an open brake.
+  [[nodiscard]] bool voltage_contradicts() const noexcept { return volts_; }
 
  private:
   /// Range of the commanded volts of one tick. It includes 0 V, which a latched bridge always outputs.

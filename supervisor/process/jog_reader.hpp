@@ -15,14 +15,16 @@ class JogReader {
         session_{context.rig.period_s},
         node_{context.node} {}
 
-  /// Takes a bounded number of samples: a flood must not delay the step. An event names the first sample of a
-  /// stranger and the first unusable sample of each session.
+  /// Takes a bounded number of samples: a flood must not delay the step. Events report the first
+  /// sample of a program without a session and the first unusable sample, once per session.
   /// @param step  header of the step that takes the samples
   void take(const msg::Header& step, double now_s);
-  /// A move has been accepted: a session begins, or ends because the move replaces it.
+  /// Call when a request that moves axes is accepted: ends the open session, and begins one for
+  /// REQUEST_JOG.
   /// @param sender  participant that sent the request
   void accepted(const msg::Request& request, const bus::ParticipantId& sender, double now_s);
-  /// Ends the session when the stick is released and the reference at rest, or the crane stops.
+  /// Ends the session in HOLD when JogSession::active() is false, and in every state except HOLD
+  /// and RUN.
   void end_with(State state, double now_s);
 
   [[nodiscard]] const JogSession& session() const { return session_; }

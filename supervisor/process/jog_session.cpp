@@ -7,7 +7,7 @@
 namespace crane::supervisor {
 namespace {
 
-bool is_share(const msg::Jog& sample) {
+bool in_range(const msg::Jog& sample) {
   return std::ranges::all_of(sample.deflection, [](double share) { return std::abs(share) <= 1; });
 }
 
@@ -58,7 +58,7 @@ JogSession::Verdict JogSession::take(const msg::Jog& sample, const JogWriter& fr
     return Verdict::released;
   }
   const auto deflection = selected_of(sample);
-  if (!is_share(sample) || late(sample, tick))
+  if (!in_range(sample) || late(sample, tick))
     faulty_ = true;
   else if (deflection == Deflection{})
     release(now_s);

@@ -6,9 +6,10 @@
 /// binds the session to the DDS writer of the sample. All other samples have no effect: a program that copies
 /// client, request id and start-up number cannot take over the session by sending first.
 ///
-/// A sample with `engaged` = false or with a tick ahead of `tick` releases the stick. During a silence of
-/// more than kSilence_s, the deflection is 0. The stick is faulty after
-///   (1) a deflection that follows a longer silence,
+/// A sample with `engaged` = false releases the stick. A deflection with a tick ahead of `tick`
+/// counts as 0. During a silence of more than kSilence_s, the deflection is 0. The stick is faulty
+/// after
+///   (1) a deflection after a silence of more than kSilence_s while the stick was engaged,
 ///   (2) a sample with a tick older than kSilence_s,
 ///   (3) a deflection outside [-1, 1],
 ///   (4) a deflection of kLongest_s without a break.
@@ -41,10 +42,10 @@ class JogSession {
   static constexpr double kLongest_s = 60;
 
   enum class Verdict : std::uint8_t {
-    acts,      ///< the sample is the present deflection
+    acts,      ///< the sample contains the present deflection
     released,  ///< the sample belongs to the session and releases the stick (rules above)
     ended,     ///< the sample belongs to the last session, which has ended
-    stranger   ///< the sample belongs to no session
+    stranger   ///< the sample belongs neither to the open session nor to the last one
   };
 
   explicit JogSession(double period_s) : period_s_{period_s} {}

@@ -13,7 +13,7 @@ double count_of(const configuration::Encoder& encoder) {
   return encoder.counts_per_unit > 0 ? 1 / encoder.counts_per_unit : 0;
 }
 
-/// Raises the friction to that of the terms of the rig file, which may exceed the compensated friction.
+/// Raises the friction to that of the model terms: it may exceed the friction that is compensated.
 void add_friction_of_model(const configuration::Rig& rig, MachineModel& machine) {
   for (const plant::TermSetting& term : rig.terms) {
     if (term.name != "drive_friction") continue;

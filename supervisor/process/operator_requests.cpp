@@ -9,7 +9,7 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr double kToTakeUp_s = 0.2;  // longest time from the acceptance of a move to its first reference
+constexpr double kLongestStart_s = 0.2;  // longest time from the acceptance of a move to its first reference
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void OperatorRequests::collect(TickInput& input, const TickMemory& last, std::in
     input.requests[static_cast<std::size_t>(*request_of(request->kind))] = true;
     due_.push_back({*request, sender});
   }
-  if (stop_requested()) refuse_beside_stops(input);
+  if (stop_requested()) refuse_all_but_stops(input);
   input.speed_share = rule_of(mode_).speed_share;
 }
 
@@ -69,7 +69,7 @@ bool OperatorRequests::stop_requested() const {
                              [](const DueRequest& due) { return runtime::stops_crane(due.request.kind); });
 }
 
-void OperatorRequests::refuse_beside_stops(TickInput& input) {
+void OperatorRequests::refuse_all_but_stops(TickInput& input) {
   std::erase_if(due_, [&](const DueRequest& due) {
     if (runtime::stops_crane(due.request.kind)) return false;
     input.requests[static_cast<std::size_t>(*request_of(due.request.kind))] = false;
@@ -84,7 +84,7 @@ void OperatorRequests::take_answers(const TickOutput& output, JogReader& jogs, d
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
     if (moves_axes(request) && verdict.accepted) {
       move_ = accepted_move(request, move_.number + 1);
-      ticks_to_take_up_ = ticks_in(kToTakeUp_s, limits_.period_s);
+      ticks_to_take_up_ = ticks_in(kLongestStart_s, limits_.period_s);
       jogs.accepted(request, sender, now_s);
     }
     answer(request, verdict.accepted, verdict.reason);

@@ -21,7 +21,8 @@ class OperatorRequests {
   OperatorRequests(const runtime::Context& context, const Limits& limits);
 
   void receive() { inbox_.receive(); }
-  /// Notes the sample of a tick of this run. @param now_ns  its local time
+  /// Call once per tick with a sample: the inbox compares the ticks of requests with it. @param
+  /// now_ns  local time of the sample
   void stepped(const msg::Header& header, std::int64_t now_ns) { inbox_.stepped(header, now_ns); }
 
   /// Takes the requests that are due at the tick of `input` and enters the permitted ones into `input`.
@@ -45,8 +46,8 @@ class OperatorRequests {
   [[nodiscard]] const msg::AcceptedMove& move() const { return move_; }
   /// Call once per step. @param reference  null: none arrived; the last one then remains valid
   void note_reference(const msg::Reference* reference);
-  /// True from the acceptance of a move until its reference has ended, and at most 0.2 s (kToTakeUp_s) if the
-  /// planner does not begin the move.
+  /// True from the acceptance of a move until its reference has ended, or for 0.2 s
+  /// (kLongestStart_s) if the planner does not begin the move.
   [[nodiscard]] bool is_moving() const { return reference_moving_ || ticks_to_take_up_ > 0; }
 
  private:
@@ -63,7 +64,7 @@ class OperatorRequests {
   [[nodiscard]] std::string problem_of_due(const msg::Request& request, const PerAxis& position,
                                            OncePerTick& once) const;
   void change_mode(const msg::Request& request, State state);
-  void refuse_beside_stops(TickInput& input);
+  void refuse_all_but_stops(TickInput& input);
   void answer(const msg::Request& request, bool accepted, std::string_view reason);
 
   const Limits& limits_;

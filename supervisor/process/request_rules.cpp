@@ -43,8 +43,8 @@ std::string target_problem(const msg::Request& request, const AxisLimits& axis, 
              shortest(axis.low_limit + axis.soft_margin) + ", " +
              shortest(axis.high_limit - axis.soft_margin) + "]";
   if (excursion.speed <= axis.max_speed) return "";
-  return std::string{plant::kCoordinates[i].name} + " speed " + shortest(excursion.speed) +
-         " of the sines must be at most " + shortest(axis.max_speed);
+  return std::string{"the sines need a "} + plant::kCoordinates[i].name + " speed of " +
+         shortest(excursion.speed) + ", above max_speed " + shortest(axis.max_speed);
 }
 
 /// A sine above half the tick rate cannot be represented by the reference: it would jump from tick to tick.
@@ -67,13 +67,15 @@ std::string begin_problem(const msg::Request& request, const Limits& limits, con
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double distance = std::abs(target[i] - position[i]);
     if (!request.selected[i] || distance <= limits.largest_follow_jump[i]) continue;
-    return "follow: the reference begins " + shortest(distance) + " from the " + plant::kCoordinates[i].name +
-           ", at most " + shortest(limits.largest_follow_jump[i]) + " is permitted: move there first";
+    const std::string unit = i == 1 ? " rad" : " m";
+    return "follow: the reference begins " + shortest(distance) + unit + " from the " +
+           plant::kCoordinates[i].name + " position (at most " + shortest(limits.largest_follow_jump[i]) +
+           unit + "): move the axis to the start of the reference first";
   }
   return "";
 }
 
-constexpr const char* kHint = " (including the radius of the load; crane zone list)";
+constexpr const char* kHint = " (zones include the radius of the load; `crane zone list` shows them)";
 
 /// The planner follows sines only on the straight path, not around zones.
 std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {
@@ -83,7 +85,7 @@ std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxi
   const bool inside = control::closest_zone(limits.path_space, to).clearance_m < control::kRestClearance_m;
   return std::string{inside ? "the target is inside zone "
                             : "the straight path to the target leads through zone "} +
-         zone->name + (inside ? "" : ": move around it first") + kHint;
+         zone->name + kHint + (inside ? "" : ": move around the zone first");
 }
 
 std::string path_problem(const Limits& limits, const control::Path& path) {
@@ -100,7 +102,7 @@ std::string path_problem(const Limits& limits, const control::Path& path) {
   if (names.empty())
     return "no path leads to the target: the measured position is not finite or far outside the limits";
   return "no path leads to the target past " + (path.blocking.size() == 1 ? "zone " : std::string{"zones "}) +
-         names + ": choose another target, raise the load, or use crane jog" + kHint;
+         names + kHint + ": choose another target, raise the load, or use `crane jog`";
 }
 
 /// @return true when an axis of the request would move farther than kShortStep_m
@@ -193,8 +195,9 @@ std::string problem_at(const msg::Request& request, const Limits& limits, const 
 
 std::string problem_in_mode(const msg::Request& request, Mode mode, const PerAxis& position) {
   const ModeRule& rule = rule_of(mode);
-  constexpr const char* kChange = "disarm, then choose another one with `crane mode`";
-  if (request.kind == crane_REQUEST_JOG && !rule.stick) return forbidden(mode, "stick", kChange);
+  constexpr const char* kChange = "disarm, then choose another mode with `crane mode`";
+  if (request.kind == crane_REQUEST_JOG && !rule.stick)
+    return forbidden(mode, "driving with the stick", kChange);
   if (request.kind == crane_REQUEST_FOLLOW && !rule.excitation) return forbidden(mode, "excitation", kChange);
   if (request.kind != crane_REQUEST_MOVE || rule.moves == Moves::all) return "";
   if (rule.moves == Moves::none) return forbidden(mode, "moves", kChange);
@@ -228,7 +231,8 @@ std::string OncePerTick::problem_of(const msg::Request& request, const Limits& l
   if (request.kind == crane_REQUEST_MOVE && !limits.zones.empty() && std::exchange(searched_, true))
     return "another move was requested in this tick: repeat the request";
   if (request.kind == crane_REQUEST_HOME && std::exchange(homed_, true))
-    return "homing was already requested in this tick: repeat the request after its end";
+    return "homing of an axis was already requested in this tick: repeat the request when that homing has "
+           "ended";
   return "";
 }
 

@@ -31,9 +31,9 @@ void SoleReader::take(std::int64_t now_ns) {
 
 void SoleReader::yield() {
   const std::string what =
-      "another supervisor of this crane has started: " + sole_.rival() + "; this one ends";
+      "another supervisor of this crane runs: " + sole_.rival() + "; this supervisor exits";
   constexpr const char* kRemedy =
-      "if the other one belongs to another crane, start one of the two with another --crane or --domain";
+      "if the other supervisor belongs to another crane, start one of them with another --crane or --domain";
   node_.error("second_supervisor", what, kRemedy);
   throw std::runtime_error(what + "; " + kRemedy);
 }

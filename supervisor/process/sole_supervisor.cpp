@@ -4,7 +4,7 @@ namespace crane::supervisor {
 namespace {
 
 /// States that follow a reset. The other states do not show whether a reset has ever been accepted.
-bool serves(crane_SupervisorState state) {
+bool follows_reset(crane_SupervisorState state) {
   switch (state) {
     case crane_STATE_READY:
     case crane_STATE_ARMING:
@@ -33,7 +33,7 @@ void SoleSupervisor::heard(const msg::SupervisorStatus& status, const bus::Write
   }
   auto& rival = rival_with(status.header.epoch);
   rival.publishes = true;
-  rival.established = rival.established || serves(status.state);
+  rival.established = rival.established || follows_reset(status.state);
   disputed_ns_ = now_ns;
 }
 
@@ -49,7 +49,7 @@ void SoleSupervisor::heard(const msg::NodeStatus& status) {
 
 void SoleSupervisor::stepped(crane_SupervisorState state) {
   ++ticks_;
-  is_new_ = is_new_ && ticks_ <= new_ticks_ && !serves(state);
+  is_new_ = is_new_ && ticks_ <= new_ticks_ && !follows_reset(state);
 }
 
 std::string SoleSupervisor::rival() const {

@@ -24,7 +24,8 @@ class SoleSupervisor {
   /// A supervisor is new for this time or until its first reset, whichever is shorter. Discovery between two
   /// DDS vendors takes up to 1 s.
   static constexpr double kNew_s = 5;
-  /// As WriterBinding::kDispute_ns: the causes of a stop must be inactive for the same time before a reset.
+  /// A dispute lasts this long after the last sample of the other supervisor. Same value as
+  /// WriterBinding::kDispute_ns and Limits::clear_time_s.
   static constexpr std::int64_t kDispute_ns = 1'000'000'000;
 
   /// @param epoch     start-up number of this process
@@ -32,9 +33,10 @@ class SoleSupervisor {
   SoleSupervisor(std::uint32_t epoch, double period_s)
       : epoch_{epoch}, new_ticks_{ticks_in(kNew_s, period_s)} {}
 
-  /// A sample of crane/supervisor, own samples included. @param writer  DDS writer of the sample
+  /// Processes a sample of crane/supervisor, including those of this process. @param writer  DDS
+  /// writer of the sample
   void heard(const msg::SupervisorStatus& status, const bus::WriterId& writer, std::int64_t now_ns);
-  /// A sample of crane/node of any process.
+  /// Processes a sample of crane/node of any process.
   void heard(const msg::NodeStatus& status);
   /// Call once for each published status of this process.
   void stepped(crane_SupervisorState state);

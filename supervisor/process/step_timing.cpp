@@ -5,9 +5,9 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr double kSilentPeriods = 1.5;     // longest wait for a state after the last sample
-constexpr double kOpenPeriods = 2;         // additional wait when a state has arrived without its demand
-constexpr double kExtensionPeriods = 0.5;  // extension after a late step or a late wake-up
+constexpr double kSilentPeriods = 1.5;             // longest wait for a state after the last sample
+constexpr double kDemandPeriods = 2;               // additional wait for the demand of an arrived state
+constexpr double kExtensionPeriods = 0.5;          // extension after a late step or a late wake-up
 constexpr std::int64_t kStart_ns = 2'000'000'000;  // longest wait for the first tick with all inputs
 
 }  // namespace
@@ -43,7 +43,7 @@ bool StepTiming::is_silent(bool open, std::int64_t now_ns) {
 std::int64_t StepTiming::due_ns(bool open) const {
   if (clock_ == runtime::Clock::lockstep || state_due_ns_ == runtime::kNever) return runtime::kNever;
   if (clock_ == runtime::Clock::prescribed) return open ? runtime::kNever : state_due_ns_;
-  return state_due_ns_ + (open ? periods_ns(kOpenPeriods) : 0);
+  return state_due_ns_ + (open ? periods_ns(kDemandPeriods) : 0);
 }
 
 }  // namespace crane::supervisor

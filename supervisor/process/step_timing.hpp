@@ -1,7 +1,7 @@
 #pragma once
-/// Times at which the supervisor steps in real time although inputs are missing. In lockstep, every step has
-/// all inputs. In a replay, the recording states the steps: the runner polls the supervisor without a
-/// state.
+/// Times at which the supervisor steps in real time although inputs are missing. In lockstep, every
+/// step has all inputs. In a replay, the recording determines the steps: where the recorded step
+/// had no state, the runner polls the supervisor without a state.
 #include <cstdint>
 
 #include "crane/runtime/component.hpp"
@@ -31,7 +31,8 @@ class StepTiming {
   /// @return true when the supervisor steps now without a state
   bool is_silent(bool open, std::int64_t now_ns);
 
-  /// Time of the step without a state; runtime::kNever: before the first state, or in lockstep.
+  /// Time of the step without a state; runtime::kNever before the first state, in lockstep, and in
+  /// a replay while a state waits for its demand.
   [[nodiscard]] std::int64_t due_ns(bool open) const;
 
  private:

@@ -138,7 +138,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   /// Puts the contradiction into the last status of this process.
   void note_foreign(TickInput& input) const {
-    if (echo_.is_of_volts())
+    if (echo_.voltage_contradicts())
       input.foreign_command = true;
     else if (input.self_test == SelfTest::running)
       input.self_test = SelfTest::failed;

@@ -50,7 +50,7 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   }
   if (requested(in, Request::estop))
     return refuse("an emergency stop was requested in the same tick: reset again");
-  if (m.reset_was_up && enabled(reset_edge))
+  if (m.reset_requested_before && enabled(reset_edge))
     return refuse("a reset was also requested in the previous tick: request the reset again");
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
   if (in.relay_closed) return refuse("the watchdog relay has not opened yet: wait, then reset");

@@ -76,7 +76,8 @@ double gain_of(const Limits& limits, std::size_t axis, const plant::State& state
   return p.slew_gain_radps2pv * jib / (jib + p.trolley_mass_kg * state.trolley_m * state.trolley_m);
 }
 
-/// Largest acceleration of an axis by a load whose swing is not measured: that at the swing limit, unit/s^2.
+/// Largest acceleration of an axis by a load whose swing is not measured, unit/s^2: the load is
+/// assumed at the swing limit.
 double unmeasured_load_acceleration(const Limits& limits, std::size_t axis,
                                     const plant::State& state) noexcept {
   if (axis == 2 || limits.machine.swing_measured[axis]) return 0;

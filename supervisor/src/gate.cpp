@@ -11,9 +11,9 @@ namespace {
 using enum protection::Protection;
 using protection::enabled;
 
-// Weight of a tick with limited rate, relative to a tick without limited rate. An alternating demand has a
-// limited rate in every second tick. It stops the crane after 2 kPressure / (kPressure - 1) times as many
-// ticks as a demand with limited rate in every tick.
+// Increment of rate_pressure in a tick with limited rate; every other tick subtracts 1. An
+// alternating demand (limited in every second tick) therefore stops the crane after 2 kPressure /
+// (kPressure - 1) times as many ticks as a demand that is limited in every tick.
 constexpr int kPressure = 4;
 // largest value of the counters, which would overflow if a stream were missing for months
 constexpr int kCountEnd = 1'000'000;

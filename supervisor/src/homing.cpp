@@ -10,11 +10,13 @@ using control::Mark;
 
 constexpr double kMargin = 1.1;  // longest search / travel of the axis: 10 % for an error of the scale
 constexpr double kStill_s = 1;   // longest time without progress
-// Smallest distance that counts as progress / commanded distance: a drive breaks loose slowly.
+// Smallest progress within kStill_s / commanded distance. Far below 1: static friction delays the
+// start.
 constexpr double kShareOfSpeed = 0.005;
 constexpr double kLongestLeg = 4;      // longest leg near the mark / back_off
 constexpr double kWrongDirection = 2;  // longest motion in the wrong direction (reversal) / back_off
-constexpr int kTicksToBeFound = 5;     // longest time from the active mark to its report by the bridge
+// longest time in `leave` until the bridge reports the mark as found
+constexpr int kTicksToBeFound = 5;
 
 struct Leg {
   double direction = 0, speed = 0;
@@ -28,7 +30,7 @@ Leg leg_of(const AxisLimits& axis, HomingPhase phase) {
   const double back = kLongestLeg * homing.back_off;
   const double to_mark = homing.direction();
   switch (phase) {
-    case HomingPhase::leave_at_first:
+    case HomingPhase::leave_mark_first:
       // A separate mark is active over a part of the travel, which can be long.
       return {-to_mark, homing.speed, homing.mark == Mark::input ? travel : back, HomingFailure::mark_stuck};
     case HomingPhase::search:
@@ -58,7 +60,7 @@ bool off_the_mark(const AxisLimits& axis, const Leg& leg, const HomingInput& in,
 
 void advance(const AxisLimits& axis, const Leg& leg, const HomingInput& in, HomingMemory& m) {
   switch (m.phase) {
-    case HomingPhase::leave_at_first:
+    case HomingPhase::leave_mark_first:
       if (off_the_mark(axis, leg, in, m)) begin(HomingPhase::search, in, m);
       return;
     case HomingPhase::search:
@@ -105,7 +107,7 @@ double step_homing(const Limits& limits, std::size_t i, const HomingInput& in, H
   const AxisLimits& axis = limits.axis[i];
   if (!m.started) {
     m.started = true;
-    begin(in.mark_active ? HomingPhase::leave_at_first : HomingPhase::search, in, m);
+    begin(in.mark_active ? HomingPhase::leave_mark_first : HomingPhase::search, in, m);
   }
   if (m.phase == HomingPhase::done || m.failure != HomingFailure::none) return 0;
   m.failure = failure_of(limits, axis, leg_of(axis, m.phase), in, m);

@@ -80,8 +80,8 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.positive("relay_timeout_s", limits.relay_timeout_s);
   problems.positive("relay_report_time_s", limits.relay_report_time_s);
   problems.at_least("homing_overspeed_ratio", limits.homing_overspeed_ratio, 1);
-  problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
-                   "at least one must be present");
+  problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "present axes", 0,
+                   "at least one axis must be present");
   problems.require(limits.zones.size() <= control::kMostZones, "zones",
                    static_cast<double>(limits.zones.size()),
                    "must be at most " + std::to_string(control::kMostZones));

@@ -26,7 +26,7 @@ std::size_t first_of(const AxisFlags& flags) {
 
 bool every_brake_open(const Limits& limits, const TickMemory& memory) {
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (takes_part(limits, memory, i) && memory.sample.brake_closed[i]) return false;
+    if (brake_may_open(limits, memory, i) && memory.sample.brake_closed[i]) return false;
   }
   return true;
 }
@@ -51,11 +51,11 @@ bool is_homing(const TickMemory& memory, std::size_t axis) {
   return memory.machine.homing && memory.homing_axis == axis;
 }
 
-bool takes_part(const Limits& limits, const TickMemory& memory, std::size_t axis) {
+bool brake_may_open(const Limits& limits, const TickMemory& memory, std::size_t axis) {
   return limits.axis[axis].present && (!memory.machine.homing || memory.homing_axis == axis);
 }
 
-EnvelopeInput measured_now(const Limits& limits, const TickInput& input, const TickMemory& memory) {
+EnvelopeInput envelope_input(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   return {.position = memory.motion.position,
           .speed = memory.motion.speed,
           .swing_radial_rad = memory.sample.swing_radial_rad,
@@ -77,7 +77,7 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Checks
       .state_stale = !memory.motion.started || memory.state_missing_in_row >= limits.state_stale_after_ticks,
       .demand_stale = checks.gated.stale,
       .gate_cause = checks.gated.cause,
-      .measured = measured_now(limits, input, memory),
+      .measured = envelope_input(limits, input, memory),
       .envelope = checks.envelope,
       .following_error = checks.following_error,
       .swing_sensor_failed = checks.swing_sensor_failed,

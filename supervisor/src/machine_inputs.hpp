@@ -9,10 +9,10 @@ namespace crane::supervisor {
 [[nodiscard]] bool is_homing(const TickMemory& memory, std::size_t axis);
 
 /// True when arming opens the brake of the axis: every present axis; during homing only the homed axis.
-[[nodiscard]] bool takes_part(const Limits& limits, const TickMemory& memory, std::size_t axis);
+[[nodiscard]] bool brake_may_open(const Limits& limits, const TickMemory& memory, std::size_t axis);
 
-[[nodiscard]] EnvelopeInput measured_now(const Limits& limits, const TickInput& input,
-                                         const TickMemory& memory);
+[[nodiscard]] EnvelopeInput envelope_input(const Limits& limits, const TickInput& input,
+                                           const TickMemory& memory);
 
 /// Results of all checks of one tick. No member has a default value: a caller that omits a check does not
 /// compile (-Werror).

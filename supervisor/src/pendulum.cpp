@@ -89,7 +89,8 @@ PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& m
           .swing_change_mps = swing_change};
 }
 
-/// Sets the component of a direction that is not measured to 0. @param slew_rad  newest angle of the jib
+/// Removes the components along directions whose swing is not measured. @param slew_rad  newest
+/// angle of the jib
 Plane measured(const Limits& limits, const Plane& ground, double slew_rad) {
   Plane jib = turned(ground, -slew_rad);
   for (std::size_t i = 0; i < 2; ++i)
@@ -119,7 +120,8 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
 }
 
-/// @return true when an encoder that counted before the push has not counted for kNoCount_ticks since
+/// @return true when an encoder that counted before the push has not counted for kNoCount_ticks
+///   consecutive ticks after the push
 bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
   bool stopped = false;
   const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};

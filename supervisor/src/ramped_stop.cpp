@@ -14,8 +14,9 @@ using plant::kTrolley;
 double square(double x) noexcept { return x * x; }
 double length(const Plane& a) noexcept { return std::hypot(a[0], a[1]); }
 
-/// Integral of the voltage over time in one direction (+1 or -1), V s: half of the previous tick, the present
-/// tick, and the next tick once more for each missing state (docs/zones.md, step 1).
+/// Integral of the voltage over time in one direction (+1 or -1), V s: half of the previous tick,
+/// the present tick and the next tick, the last one repeated for each missing state (docs/zones.md,
+/// step 1).
 double impulse_vs(const Limits& limits, std::size_t axis, double direction, const ZoneInput& input,
                   const ZoneMemory& memory) noexcept {
   const auto push = [direction](double v) { return std::max(direction * v, 0.0); };
@@ -67,9 +68,9 @@ StopTravel hoist_stop_travel(const Limits& limits, const ZoneInput& input,
   return travel;
 }
 
-/// Velocity of the load: mean over the span, carried to the newest sample with the acceleration of the
-/// pendulum, -g times the horizontal part of the cable. Added: the quantisation of the encoders, the
-/// difference of the true acceleration from this one, and the wind.
+/// Upper bound of the speed of the load, m/s: the mean velocity over the span, extrapolated to the
+/// newest sample with the acceleration of the pendulum (-g times the horizontal part of the cable),
+/// plus bounds for the quantisation of the encoders, the error of that acceleration and the wind.
 double load_speed_mps(const Limits& limits, const ZoneMemory& memory, const LoadMotion& load) noexcept {
   if (memory.samples < 2) return 0;
   const PastSample &now = memory.recent[0], &then = memory.recent[memory.samples - 1];

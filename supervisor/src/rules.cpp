@@ -12,8 +12,9 @@ using L = const Limits&;
 using I = const Inputs&;
 using M = const Memory&;
 
-// ARMING waits for the bridge before the brakes open. After that, a bridge that is not ready is a cause.
-bool bridge_matters(M m) noexcept { return m.state != State::arming || m.releasing; }
+// In ARMING, the supervisor waits for the bridge until it commands the brakes open. From then on, a
+// stopped bridge stops the crane.
+bool bridge_must_be_ready(M m) noexcept { return m.state != State::arming || m.releasing; }
 
 bool bridge_stopped(I in) noexcept { return in.bridge_latched || in.watchdog_dropped; }
 
@@ -35,8 +36,8 @@ constexpr const char* kTwoWriters =
     "two processes write the same topic, or one forges commands: end one of them, give each crane its own "
     "name or domain, or use keys (crane up --secure)";
 constexpr const char* kOtherConfiguration =
-    "the processes have different rig files or controllers, the event names them: restart them with the same "
-    "ones, then reset";
+    "the processes have different rig files or controllers (the event names the processes): restart them "
+    "with the same rig file and controller, then reset";
 constexpr const char* kBrakeSupply = "check the brake supply and its relay";
 constexpr const char* kEnvelope =
     "the axis would not have stopped before its limit, or moved while its brake opened: check target and "
@@ -47,7 +48,7 @@ constexpr const char* kFollowing =
     "the axis does not follow its voltage: check amplifier, encoder, brake and load, then reset";
 constexpr const char* kSwing = "wait until the load swings less, then reset";
 constexpr const char* kZone =
-    "`crane zone list` shows the zones, the event names the zone: let the load hang at rest, reset, arm, "
+    "the event names the zone (`crane zone list` shows all zones): let the load hang at rest, reset, arm, "
     "then move away from the zone, slowly at first";
 constexpr const char* kResetArm = "reset, then arm";
 
@@ -83,7 +84,7 @@ constexpr std::array kRules{
          "a value in the rig file of a process of the loop differs from that of the supervisor, or two processes have different controllers",
          "same tick", kOtherConfiguration},
     Rule{"supervisor_bridge_latched", Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
-         [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
+         [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_must_be_ready(m); },
          "the bridge has latched, or the watchdog relay is open", "same tick", kBridgeStopped},
     Rule{"supervisor_not_homed", Cause::not_homed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return in.not_homed && !m.homing; },
@@ -130,7 +131,7 @@ constexpr std::array kRules{
          "no crane/state arrives: check that the bridge or the simulated plant runs"},
     Rule{"supervisor_demand_stale", Cause::demand_stale, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_stale; },
-         "`crane/demand` is missing for `demand_stale_after_s`", "3rd tick in a row",
+         "no usable `crane/demand` for `demand_stale_after_s`", "3rd tick in a row",
          "no crane/demand arrives: check planner, tracking, anti_swing and friction_compensation"},
     Rule{"supervisor_demand_invalid", Cause::demand_invalid, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_invalid; },
@@ -241,7 +242,7 @@ constexpr std::array<ReactionWords, 6> kReactions{{{"", "", ""},
 
 std::span<const Rule> rules() noexcept { return kRules; }
 
-Finding worst_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept {
+Finding first_matching_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept {
   for (const Rule& rule : kRules)
     if (protection::enabled(rule.name) && in_scope(rule.scope, m) && rule.holds(limits, in, m))
       return {rule.cause, rule.reaction};

@@ -112,7 +112,8 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
   if (m.state != State::run) return;
   m.move_began = m.move_began || in.reference_moving;
-  // In the process, OperatorRequests::is_moving() ends a move that the planner does not begin earlier.
+  // The process does not reach this time: OperatorRequests::is_moving() ends such a move 0.2 s
+  // after its acceptance.
   const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.longest_wait_for_motion_s;
   if ((m.move_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
@@ -204,12 +205,12 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
 
   if (in.bridge_restarted && protection::enabled("supervisor_bridge_restarted")) begin_anew(in, m);
-  const Finding finding = worst_cause(limits, in, m);
+  const Finding finding = first_matching_cause(limits, in, m);
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);
   transition(limits, in, answers, m);
   m.homing = m.homing && in_armed_scope(m);
-  m.reset_was_up = requested(in, Request::reset);
+  m.reset_requested_before = requested(in, Request::reset);
   return outputs_of(limits, m, answers);
 }
 

@@ -25,7 +25,8 @@ double advance_homing(const Limits& limits, TickMemory& memory) {
                      memory.homing);
 }
 
-/// @return true when a closed brake does not hold. In BOOT and SELFTEST, every tick stores the position anew.
+/// @return true when a brake that is commanded closed does not hold its axis, or does not report
+///   closed in time. In BOOT and SELFTEST, every tick replaces the stored position and speed.
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
@@ -130,7 +131,7 @@ StatusFlags flags_of(const Inputs& in, const GateOutput& gated, State state) {
 TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory) noexcept {
   take_over_bridge(limits, input, memory);
   const bool sampled = take_sample(limits, input, memory);
-  const Envelope envelope = check_envelope(limits, measured_now(limits, input, memory));
+  const Envelope envelope = check_envelope(limits, envelope_input(limits, input, memory));
   const bool brake_did_not_close = watch_brakes(limits, input, sampled, memory);
   const bool relay_did_not_open = watch_relay(limits, input, sampled, memory);
   GateOutput gated = run_gate(limits, input, envelope, memory);
@@ -173,7 +174,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   out.zone = zone.zone;
   memory.may_set_zero = may_set_zero(decided, memory);
   for (std::size_t i = 0; i < kAxes; ++i) {
-    out.brake_release[i] = decided.brake_release && takes_part(limits, memory, i);
+    out.brake_release[i] = decided.brake_release && brake_may_open(limits, memory, i);
     out.homing[i] = memory.may_set_zero && memory.homing_axis == i;
     if (out.homing[i] && decided.state == State::run) out.homing_speed[i] = homing_speed;
   }

@@ -37,9 +37,9 @@ double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
   return speed > 0 ? travel : -travel;
 }
 
-/// @return the first zone that the reached space of a ramped stop touches when it moves on by
-/// deceleration_travel() of each axis; nothing: no such zone. Ignores zones that the load leaves: their
-/// clearance is below 0 already.
+/// @return the first zone that the reached space touches when each axis travels
+///   deceleration_travel() before the ramped stop; nothing: none. Ignores zones that the load
+///   leaves, whose clearance is below 0.
 std::optional<std::size_t> zone_ahead(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory,
                                       const RampedStop& stop, const ReachedSpace& now) noexcept {
   constexpr int kPoints = 8;

@@ -72,8 +72,10 @@ TEST(FollowRequest, IsRefusedWhenTheReferenceBeginsFartherFromTheAxisThanAMoveNe
     scenario.start[plant::kTrolley] = kMiddle_m + distance_m;
     return refusal_of(scenario);
   };
-  EXPECT_NE(beginning(kFar_m, 0.1).find("move there first"), std::string::npos);
-  EXPECT_NE(beginning(-kFar_m, 0.1).find("move there first"), std::string::npos);
+  EXPECT_NE(beginning(kFar_m, 0.1).find("move the axis to the start of the reference first"),
+            std::string::npos);
+  EXPECT_NE(beginning(-kFar_m, 0.1).find("move the axis to the start of the reference first"),
+            std::string::npos);
   EXPECT_EQ(beginning(kNear_m, 0.1), "accepted");
   EXPECT_EQ(beginning(kFar_m, 0), "accepted") << "without sines the reference is a step";
 }

@@ -12,10 +12,10 @@ msg::State state_of_board(bool relay_open) {
   return state;
 }
 
-class BoardSelfTestOf : public testing::TestWithParam<double> {};
+class SelfTestOfTheBoard : public testing::TestWithParam<double> {};
 
 /// The relay may open up to 0.5 s after the start, whatever the period.
-TEST_P(BoardSelfTestOf, PassesWhenTheRelayOpensWithinTwoSeconds) {
+TEST_P(SelfTestOfTheBoard, PassesWhenTheRelayOpensWithinTwoSeconds) {
   BoardSelfTest test{GetParam()};
   const auto closed = state_of_board(false), open = state_of_board(true);
   for (double time_s = 0; time_s < 0.5; time_s += GetParam())
@@ -24,14 +24,14 @@ TEST_P(BoardSelfTestOf, PassesWhenTheRelayOpensWithinTwoSeconds) {
   EXPECT_EQ(test.step(&open), SelfTest::passed);
 }
 
-TEST_P(BoardSelfTestOf, FailsWhenTheRelayStaysClosed) {
+TEST_P(SelfTestOfTheBoard, FailsWhenTheRelayStaysClosed) {
   BoardSelfTest test{GetParam()};
   const auto closed = state_of_board(false);
   for (double time_s = 0; time_s < 2.1; time_s += GetParam()) (void)test.step(&closed);
   EXPECT_EQ(test.step(&closed), SelfTest::failed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Periods, BoardSelfTestOf, testing::Values(0.001, 0.01),
+INSTANTIATE_TEST_SUITE_P(Periods, SelfTestOfTheBoard, testing::Values(0.001, 0.01),
                          [](const auto& test) { return test.param < 0.005 ? "Of1ms" : "Of10ms"; });
 
 }  // namespace

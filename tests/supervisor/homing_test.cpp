@@ -170,9 +170,9 @@ struct Failure {
   friend std::ostream& operator<<(std::ostream& out, const Failure& failure) { return out << failure.name; }
 };
 
-class HomingFails : public ::testing::TestWithParam<Failure> {};
+class FailedHoming : public ::testing::TestWithParam<Failure> {};
 
-TEST_P(HomingFails, RemovesPowerAndReportsItsReasonAndAnUnknownPosition) {  // S23
+TEST_P(FailedHoming, RemovesPowerAndReportsItsReasonAndAnUnknownPosition) {  // S23
   const auto& failure = GetParam();
   HomingTimeline t{failure.from_m};
   failure.begin(t);
@@ -192,7 +192,7 @@ TEST_P(HomingFails, RemovesPowerAndReportsItsReasonAndAnUnknownPosition) {  // S
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Each, HomingFails,
+    Each, FailedHoming,
     ::testing::Values(
         Failure{"TheSwitchNeverCloses", [](HomingTimeline& c) { c.never_closes = true; },
                 HomingFailure::mark_not_found, 30},

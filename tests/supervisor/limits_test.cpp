@@ -56,7 +56,7 @@ TEST(SupervisorLimits, ReportABoundThatIsNoInteger) {
 }
 
 TEST(SupervisorLimits, NeedAtLeastOneAxisAndIgnoreAbsentOnes) {
-  EXPECT_THAT(problems(Limits{}), ElementsAre(HasSubstr("at least one must be present")));
+  EXPECT_THAT(problems(Limits{}), ElementsAre(HasSubstr("at least one axis must be present")));
   Limits limits = test_limits();
   limits.axis[2].max_speed = -1;
   EXPECT_THAT(problems(limits), IsEmpty());
@@ -115,7 +115,7 @@ TEST(Envelope, LooksAheadInTheDirectionOfMotionOnly) {
 }
 
 // Independent derivation: simulates the stop that the envelope triggers in fine steps.
-TEST(Envelope, AnAxisCaughtByItStopsInsideTheHardLimits) {  // S9
+TEST(Envelope, StopsAnAxisInsideTheHardLimits) {  // S9
   const Limits limits = test_limits();
   for (double speed = 0.05; speed <= 1; speed += 0.05) {
     double x = 0.7;

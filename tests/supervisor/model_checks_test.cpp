@@ -80,7 +80,7 @@ class Trolley : public testing::Test {
   double tick_s_ = kTick_s, time_s_ = 1, position_ = 0.5, speed_ = 0, shown_ = 0.5;
 };
 
-TEST_F(Trolley, ThatObeysIsNoFollowingErrorWithinTheToleranceOfItsGain) {
+TEST_F(Trolley, ThatObeysCausesNoFollowingErrorWithinTheToleranceOfItsGain) {
   for (const double gain : {0.8, 1.0, 1.25}) {
     memory_ = {};
     speed_ = 0, shown_ = position_ = 0.5;
@@ -91,7 +91,7 @@ TEST_F(Trolley, ThatObeysIsNoFollowingErrorWithinTheToleranceOfItsGain) {
 }
 
 /// After each pause of 25 ms, the next tick follows after 3 ms.
-TEST_F(Trolley, ThatObeysIsNoFollowingErrorWhileTheComputerPauses) {
+TEST_F(Trolley, ThatObeysCausesNoFollowingErrorWhileTheComputerPauses) {
   struct Tick {
     double duration_s, volts_v;
   };
@@ -179,7 +179,7 @@ class Load : public testing::Test {
 
 TEST_F(Load, ThatSwingsIsNotAFailure) { EXPECT_EQ(swing(6000, as_it_is), 0); }
 
-TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongIsNoFailure) {
+TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongCausesNoFailure) {
   for (const double ratio : {0.5, 1.5}) {
     memory_ = {};
     cable_m_ = ratio, angle_ = 0.3, rate_ = 0;
@@ -187,11 +187,11 @@ TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongIsNoFailure) {
   }
 }
 
-TEST_F(Load, WithAZeroThatIsOffBy20MradIsNoFailure) {
+TEST_F(Load, WithAZeroThatIsOffBy20MradCausesNoFailure) {
   EXPECT_EQ(swing(3000, [](double angle) { return angle + 0.02; }), 0);
 }
 
-TEST_F(Load, InTheWindOfTheRigFileIsNoFailureAndInAStrongerWindIsOne) {
+TEST_F(Load, InTheWindOfTheRigFileCausesNoFailureButAStrongerWindDoes) {
   limits_.clearance.wind_mps2 = 0.8;
   wind_mps2_ = 0.8;
   EXPECT_EQ(swing(6000, as_it_is), 0);
@@ -222,7 +222,7 @@ TEST_F(Load, WithAFrozenEncoderIsDetectedAtAnyAngle) {
 }
 
 /// The low-pass filter delays the angle by 45 ms. At 2.5 m/s2, the sum would then grow by 1.5 m/s per second.
-TEST_F(Load, UnderAMovingTrolleyIsNoFailureWithOrWithoutFilteredAngles) {
+TEST_F(Load, UnderAMovingTrolleyCausesNoFailureWithOrWithoutFilteredAngles) {
   trolley_m_ = 0.1;
   EXPECT_EQ(swing(3000, as_it_is), 0);
   filter_angle(0.1);
@@ -230,7 +230,7 @@ TEST_F(Load, UnderAMovingTrolleyIsNoFailureWithOrWithoutFilteredAngles) {
 }
 
 /// The bridge filters interpolated positions for the ticks that it skips.
-TEST_F(Load, WithFilteredAnglesAndMissingSamplesIsNoFailure) {
+TEST_F(Load, WithFilteredAnglesAndMissingSamplesCausesNoFailure) {
   for (lost_ticks_ = 1; lost_ticks_ <= 2; ++lost_ticks_) {
     trolley_m_ = 0.2;  // up to 1 m/s
     filter_angle(0.1);

@@ -16,9 +16,9 @@ class RealTimeOnTwoHosts : public SupervisorInRealTime, public testing::WithPara
   RealTimeOnTwoHosts() : SupervisorInRealTime{GetParam()} {}
 };
 
-class BeforeItsFirstStep : public SupervisorInRealTime {
+class SupervisorBeforeItsFirstStep : public SupervisorInRealTime {
  protected:
-  BeforeItsFirstStep() : SupervisorInRealTime{0, true, 0} {}
+  SupervisorBeforeItsFirstStep() : SupervisorInRealTime{0, true, 0} {}
   void states_come(std::uint64_t first, std::uint64_t last) {
     for (auto tick = first; tick <= last; ++tick) {
       state_comes(tick);
@@ -28,7 +28,7 @@ class BeforeItsFirstStep : public SupervisorInRealTime {
   }
 };
 
-TEST_F(BeforeItsFirstStep, WaitsForTheFirstTickWithAllInputs) {
+TEST_F(SupervisorBeforeItsFirstStep, WaitsForTheFirstTickWithAllInputs) {
   states_come(1, 20);
   EXPECT_EQ(steps(), 0);
   state_comes(21);
@@ -42,7 +42,7 @@ TEST_F(BeforeItsFirstStep, WaitsForTheFirstTickWithAllInputs) {
   EXPECT_EQ(missing(), 1U);
 }
 
-TEST_F(BeforeItsFirstStep, ReportsAMissingDemandTwoSecondsAfterTheFirstState) {
+TEST_F(SupervisorBeforeItsFirstStep, ReportsAMissingDemandTwoSecondsAfterTheFirstState) {
   states_come(1, 200);
   EXPECT_EQ(steps(), 0);
   states_come(201, 205);
@@ -50,7 +50,7 @@ TEST_F(BeforeItsFirstStep, ReportsAMissingDemandTwoSecondsAfterTheFirstState) {
   EXPECT_TRUE(demand_is_stale());
 }
 
-TEST_F(BeforeItsFirstStep, ReportsAMissingStateTwoSecondsAfterTheOnlyState) {
+TEST_F(SupervisorBeforeItsFirstStep, ReportsAMissingStateTwoSecondsAfterTheOnlyState) {
   states_come(1, 1);
   sleep_until(2009);
   EXPECT_EQ(steps(), 0);
@@ -123,7 +123,7 @@ TEST_F(RealTime, ALateStepIsNotFollowedByASecondStepAtOnce) {
   EXPECT_EQ(steps(), 12);
 }
 
-TEST_F(RealTime, SilenceIsStateStaleAtTheThirdStepWithoutState) {
+TEST_F(RealTime, ThreeStepsWithoutStateCauseStateStale) {
   sleep_until(129.9);
   EXPECT_EQ(steps(), 11);
   EXPECT_FALSE(state_is_stale());

@@ -146,7 +146,7 @@ TEST_P(AnotherConfiguration, OfTheReferenceRemovesPowerInTheSameTick) {
   expect_power_removed();
 }
 
-TEST_P(AnotherConfiguration, RefusesTheResetUntilTheProcessHasTheSameOne) {
+TEST_P(AnotherConfiguration, PreventsAResetUntilTheProcessHasThatOfTheSupervisor) {
   const auto own = std::exchange(reference_.configuration, GetParam());
   reference_.moving = false;
   ticks(200);

@@ -51,7 +51,7 @@ TEST(SoleSupervisor, IsNotDisputedByItsOwnSamplesAndThoseOfOtherProcesses) {
   EXPECT_FALSE(sole.yields());
 }
 
-TEST(SoleSupervisor, WithTheLargerStartUpNumberEndsAndNamesTheOther) {
+TEST(SoleSupervisor, WithTheLargerStartUpNumberExitsAndNamesTheRival) {
   SoleSupervisor smaller{3, kSoleTick_s}, larger{7, kSoleTick_s};
   smaller.heard(sole_status(7), sole_writer(2), 0);
   larger.heard(sole_status(3), sole_writer(1), 0);
@@ -90,7 +90,7 @@ TEST(SoleSupervisor, IgnoresTheStatusOfASupervisorThatStops) {
   EXPECT_EQ(other.rival(), "");
 }
 
-TEST(SoleSupervisor, BesideAnEstablishedOneEndsWhateverItsStartUpNumber) {
+TEST(SoleSupervisor, ThatMeetsAnEstablishedOneExitsWhateverItsStartUpNumber) {
   SoleSupervisor of_state{3, kSoleTick_s}, of_age{3, kSoleTick_s};
   of_state.heard(sole_status(7, crane_STATE_HOLD), sole_writer(2), 0);
   EXPECT_TRUE(of_state.yields());

@@ -35,7 +35,7 @@ TEST(Supervisor, StopsFourTicksAfterTheLastDemand) {  // S5
   EXPECT_TRUE(t.safe());
 }
 
-TEST(Supervisor, RampsEvenlyWhenTheRampTakesMoreTicks) {  // S5
+TEST(Supervisor, RampsEvenlyOverMoreTicksAtAShorterPeriod) {  // S5
   Limits limits = test_limits();
   limits.period_s = 0.005;
   Timeline t{limits};

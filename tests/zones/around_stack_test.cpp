@@ -205,8 +205,7 @@ TEST(MovesAroundZones, AreRefusedWithTheZonesThatLeaveNoPath) {
                 .size_y_m = 1.5,
                 .top_m = 1.99}};
   Carrier carrier{"lqr", rig};
-  EXPECT_THAT(carrier.move({}, 2.0),
-              HasSubstr("no path leads to the target past zone wall: choose another target"));
+  EXPECT_THAT(carrier.move({}, 2.0), HasSubstr("no path leads to the target past zone wall ("));
   EXPECT_EQ(carrier.crane.status().state, crane_STATE_HOLD);
 }
 

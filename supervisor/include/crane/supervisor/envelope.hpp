@@ -18,7 +18,9 @@ struct EnvelopeInput {
 
 /// true: the limit is violated.
 struct Envelope {
-  AxisFlags block_positive{};  ///< no positive voltage: cannot stop before high limit, or at its high switch
+  /// true: positive voltage is blocked: the axis cannot stop before its high limit, or its high
+  /// switch is pressed
+  AxisFlags block_positive{};
   AxisFlags block_negative{};  ///< the same for the low limit and negative voltage
   bool stopping = false;       ///< an axis cannot stop before a hard limit: x +- (v t + v^2/2a)
   bool position = false;       ///< an axis is outside a hard limit

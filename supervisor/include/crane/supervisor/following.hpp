@@ -54,7 +54,7 @@ inline constexpr double kLoadRatioMax = 1.5;     ///< largest load mass / load m
 /// Permitted speed error / max_speed. From this speed, an axis stops within a quarter of its soft margin.
 inline constexpr double kSpeedShare = 0.05;
 
-/// Sum that stops an axis with this speed, unit/s. @param span_s  time between two samples
+/// Limit of the sums of an axis at this speed, unit/s. @param span_s  time between two samples
 [[nodiscard]] double following_limit(const Limits& limits, std::size_t axis, double speed,
                                      double span_s) noexcept;
 

@@ -29,7 +29,8 @@ struct GateMemory {
 };
 
 struct GateOutput {
-  /// V, finite, within range and rate; 0 on absent axes; becomes 0 in one tick when its direction is blocked.
+  /// V, finite, within range and rate; 0 on absent axes. A voltage in a blocked direction becomes 0
+  /// at once, without rate limit.
   PerAxis drive_v{};
   Cause cause = Cause::none;  ///< none, demand_stale, demand_invalid or demand_rate
   bool clamped = false;       ///< true: range or rate was limited

@@ -8,13 +8,15 @@
 namespace crane::supervisor {
 
 enum class HomingPhase : std::uint8_t {
-  leave_at_first,  ///< away from the mark; only when the axis starts at its mark
-  search,          ///< towards the mark at the homing speed, until the mark is active
+  leave_mark_first,  ///< away from the mark; only when the axis starts at its mark
+  search,            ///< towards the mark at the homing speed, until the mark is active
   /// away from the mark, until the axis is `back_off` beyond the point at which the switch opened
   backing_off,
   approach,  ///< towards the mark at the approach speed, until the mark is active
-  leave,     ///< as backing_off; during this phase the bridge must report the mark as found
-  done       ///< the axis has left the mark; the speed is 0. Then the bridge sets the position
+  /// as backing_off; fails with mark_disagrees unless the bridge reports the mark as found within
+  /// five ticks
+  leave,
+  done  ///< the axis has left the mark; the speed is 0. Then the bridge sets the position
 };
 
 struct HomingInput {
@@ -25,7 +27,7 @@ struct HomingInput {
 };
 
 struct HomingMemory {
-  HomingPhase phase = HomingPhase::leave_at_first;
+  HomingPhase phase = HomingPhase::leave_mark_first;
   HomingFailure failure = HomingFailure::none;
   bool started = false;
   /// true: in an earlier tick, no limit switch other than the homing mark was pressed

@@ -56,8 +56,9 @@ struct Limits : control::OperatingLimits {
   int overruns_in_row = 3;
   double clear_time_s = 1;  ///< time without a cause before a reset, >= 0
   double fresh_time_s = 1;  ///< time with fresh state and demand before arming, >= 0
-  /// longest time in RUN until Inputs::reference_moving becomes true, >= 0. The process ends a move earlier,
-  /// 0.2 s after its acceptance (OperatorRequests)
+  /// longest time in RUN until Inputs::reference_moving becomes true, >= 0. In the process, a move
+  /// that the planner does not begin ends earlier, 0.2 s after its acceptance
+  /// (OperatorRequests::is_moving)
   double longest_wait_for_motion_s = 1;
   double standstill_time_s = 0.1;  ///< time near one position that counts as standstill, > 0
   double c1_ramp_time_s = 0.02;    ///< duration of the ramp from full voltage to 0 V, in [0, 0.02]
@@ -79,8 +80,9 @@ struct Limits : control::OperatingLimits {
   control::Clearance clearance{};
   std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
   control::PathSpace path_space{};     ///< input of the search for moves around zones
-  PerAxis reference_acceleration{};  ///< deceleration of the planner's stop, unit/s^2; 0: no controlled stop
-                                     ///< before the ramped stop
+  /// deceleration of the planner's stop, unit/s^2; 0: the zone filter requires no controlled stop
+  /// before the ramped stop
+  PerAxis reference_acceleration{};
   /// Largest distance between an axis and the start of a reference of sines, unit: reference_speed^2 /
   /// (2 reference_acceleration), the distance in which a move reaches its speed.
   PerAxis largest_follow_jump{};
@@ -104,7 +106,7 @@ struct Limits : control::OperatingLimits {
 /// Largest permitted value of demand_loss_to_braked_s.
 inline constexpr double kDemandLossToBrakedMax_s = 0.1;
 
-/// True when a request may name this target: the target is finite and inside the soft limits.
+/// True when `target` is finite and inside the soft limits.
 [[nodiscard]] bool target_allowed(const AxisLimits& axis, double target) noexcept;
 
 /// @return all problems as "name = value: rule"; empty when the crane may be armed with these limits

@@ -26,7 +26,7 @@ inline constexpr double kShortStep_m = 0.03;
 inline constexpr double kShortestRadius_m = 0.1;
 
 struct ModeRule {
-  const char* name;     ///< of the command line: "semi_automatic"
+  const char* name;     ///< name in the command line, for example "semi_automatic"
   bool stick;           ///< true: REQUEST_JOG is permitted
   Moves moves;          ///< REQUEST_MOVE
   bool excitation;      ///< true: REQUEST_FOLLOW is permitted

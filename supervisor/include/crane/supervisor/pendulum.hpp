@@ -1,22 +1,25 @@
 #pragma once
-/// Check of the swing encoders: compares the measured load with a pendulum under the measured trolley. In
-/// coordinates of the ground, with the equation numbers of H. M. Omar, Control of Gantry and Tower Cranes,
+/// Check of the swing encoders: compares the measured motion of the load with that of a pendulum
+/// whose suspension point is the measured trolley. Coordinates of the ground; equation numbers of
+/// H. M. Omar, Control of Gantry and Tower Cranes:
 ///   r'' = -(g + z'') (r - p) / h                                                     (2.11), (2.18), (2.19)
 /// r and p: horizontal positions of load and trolley, z = -h: height of the load relative to the jib. All
 /// three are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
-/// does not depend on drives, friction or load mass. The mean of e over kMeanSamples samples is summed as a
-/// vector (run_length.hpp) and reduced by the tolerances. The tolerances for the zero error kZeroError_rad,
-/// the wind of the rig file (Limits::clearance) and the damping ratio kDampingRatio apply in every direction.
-/// A cable k times as long as measured causes e = (1 - k) dr'. Therefore the tolerance kCableTolerance times
-/// the change of the swing rate dr' applies only along dr'. When the sum exceeds kPermittedSum_mps plus the
-/// quantisation of the swing rate, a swing encoder or the encoder of the axis that carries the load has
-/// failed.
+/// does not depend on drives, friction or load mass. The mean of e over kMeanSamples samples is
+/// added to a vector sum (run_length.hpp); in each sample, the tolerances reduce the sum. The
+/// tolerances for the zero error kZeroError_rad, the wind of the rig file (Limits::clearance) and
+/// the damping ratio kDampingRatio apply in every direction. A cable k times as long as measured
+/// causes e = (1 - k) dr'. Therefore the tolerance kCableTolerance times the change of the swing
+/// rate dr' applies only along dr'. When the sum exceeds kPermittedSum_mps plus the quantisation of
+/// the swing rate, a swing encoder or the encoder of the axis that carries the load has failed.
 ///
-/// Push: a pushed load gains its speed within one or two samples and swings as a pendulum afterwards. One sum
-/// per kPushInterval_s that exceeds the limit within kPush_ticks is tolerated when at least half of it is a
-/// change of the swing rate in the same direction. The push is not tolerated when a swing encoder that was
-/// counting does not change for kNoCount_ticks afterwards: a push does not stop a load exactly.
+/// Push: a pushed load gains its speed within one or two samples and swings as a pendulum
+/// afterwards. A sum above the limit counts as a push, and is cleared, if the sum has grown for at
+/// most kPush_ticks and at least half of the sum is a change of the swing rate in the same
+/// direction; at most one push per kPushInterval_s. If a swing encoder that counted before the push
+/// then stands still for kNoCount_ticks, the encoder has failed: a push does not stop a load
+/// exactly.
 ///
 /// If crane/state contains filtered swing angles, the check filters the positions in the same way: the
 /// balance then holds for the filtered motion. After the first sample, and after a gap of more than 0.1 s,
@@ -25,8 +28,9 @@
 /// Detection time of a frozen swing encoder with the error a, rad:
 ///   (kPermittedSum_mps + noise) / (g (|a| - kZeroError_rad) - wind) + (kMeanSamples + 2) ticks.
 /// An error below kZeroError_rad + wind / g is not detected: 46 mrad with the default wind of 0.25 m/s2.
-/// False alarms: none within the tolerances; average run length above 1e9 ticks for a white disturbance of
-/// the same size (tests/supervisor/model_checks_test.cpp).
+/// False alarms: none within the tolerances; for an additional white disturbance whose rms per
+/// sample is pendulum_drift(), the average run length is above 1e9 ticks
+/// (tests/supervisor/model_checks_test.cpp).
 #include "crane/control/cable_tolerance.hpp"
 #include "crane/supervisor/limits.hpp"
 
@@ -75,14 +79,15 @@ struct PendulumMemory {
   double push_left_s = 0;               ///< time until another push is permitted; <= 0: at once
   std::array<double, 2> swing_rad{};    ///< newest, radial and tangential
   std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted within the last 2 kPush_ticks ticks
-  std::array<int, 2> no_count_ticks{};  ///< ticks without a count since the push
+  std::array<int, 2> no_count_ticks{};  ///< consecutive ticks without a count after a push
   std::array<bool, 2> counted_before_push{};
   double largest = 0;  ///< largest sum / limit so far; above 1 is a failure
 };
 
 /// Limit of the sum, m/s. @param span_s  time between two samples
 [[nodiscard]] double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexcept;
-/// Drift of the sum: change of speed in one sample that the tolerances permit, m/s.
+/// Change of speed in one sample that zero error and wind permit, m/s; each sample reduces the sum
+/// by it.
 [[nodiscard]] double pendulum_drift(const Limits& limits, double span_s) noexcept;
 
 /// Processes one sample. @return true when a swing encoder has failed; never while `limits.machine.known` is

@@ -42,7 +42,7 @@ struct Finding {
 };
 
 /// The first rule that holds in this tick.
-[[nodiscard]] Finding worst_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
+[[nodiscard]] Finding first_matching_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
 /// First cause that refuses a reset and takes READY back to LOCKED. A latched bridge and an open watchdog
 /// relay do not refuse a reset, because both need the watchdog permission that the reset gives.

@@ -64,16 +64,17 @@ struct Inputs {
 struct Memory {
   State state = State::boot;
   Cause cause = Cause::start;
-  double entered_s = 0;        ///< time at which `state` was entered
-  double clear_since_s = 0;    ///< time since which no cause blocks a reset
-  double fresh_since_s = 0;    ///< time since which state and demand are fresh
-  double idle_since_s = 0;     ///< HOLD: end of the last move
-  double release_since_s = 0;  ///< ARMING: time at which the brakes were commanded open
-  bool releasing = false;      ///< true: the brakes are commanded open
-  bool ramping = false;        ///< STOP_C1: true: the voltage ramps to zero
-  int ramp_tick = 0;           ///< number of ticks of the ramp so far
-  bool move_began = false;     ///< RUN: true: reference_moving was true
-  bool reset_was_up = false;   ///< true: the previous tick requested a reset
+  double entered_s = 0;      ///< time at which `state` was entered
+  double clear_since_s = 0;  ///< time since which no cause blocks a reset
+  double fresh_since_s = 0;  ///< time since which state and demand are fresh
+  /// HOLD: time at which HOLD was entered (end of arming or of a move)
+  double idle_since_s = 0;
+  double release_since_s = 0;           ///< ARMING: time at which the brakes were commanded open
+  bool releasing = false;               ///< true: the brakes are commanded open
+  bool ramping = false;                 ///< STOP_C1: true: the voltage ramps to zero
+  int ramp_tick = 0;                    ///< number of ticks of the ramp so far
+  bool move_began = false;              ///< RUN: true: reference_moving was true
+  bool reset_requested_before = false;  ///< true: the previous tick requested a reset
   bool self_test_passed = false;
   bool homing = false;  ///< true: the crane is armed only to home one axis
 };
@@ -96,7 +97,7 @@ struct Outputs {
   State state = State::boot;
   Cause cause = Cause::start;  ///< none in READY, ARMING, HOLD and RUN
   Volts volts = Volts::zero;
-  double ramp_factor = 0;      ///< of Volts::ramp, in [0, 1)
+  double ramp_factor = 0;      ///< factor of Volts::ramp, in [0, 1)
   bool brake_release = false;  ///< true: open the brakes of all present axes; while homing, of the homed axis
   bool homing = false;
   bool watchdog_permission = false;

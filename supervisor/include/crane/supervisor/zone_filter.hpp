@@ -30,7 +30,8 @@ struct ZoneMemory {
   std::array<PastSample, kZoneSpan + 1> recent{};  ///< newest first
   std::size_t samples = 0;                         ///< number of valid elements of `recent`
   PerAxis applied_v{}, previous_applied_v{};
-  bool watching = false;  ///< true: the brakes were open in the previous tick
+  /// true: the previous tick was filtered (brakes commanded open, no homing)
+  bool watching = false;
   /// m, least permitted clearance of each zone of the limits; below 0 while a load inside the margin of this
   /// zone leaves it
   std::array<double, control::kMostZones> permitted_m{};
@@ -54,7 +55,8 @@ inline constexpr double kLeaveTolerance_m = 0.02;
 /// Stores one sample. Call for every sample, also while the brakes are closed.
 void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memory) noexcept;
 
-/// Filters the voltages of one tick while the brakes are open. Without zones the verdict is
+/// Judges the voltages of one tick. The caller replaces the voltages by 0 V if the verdict requires
+/// a ramped stop. Call while the brakes are commanded open. Without zones, the verdict is
 /// default-constructed.
 /// @pre observe_load() has received the newest sample; at most control::kMostZones zones
 [[nodiscard]] ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input,
