@@ -30,9 +30,9 @@ std::vector<runtime::Write> bridge_writes() {
 
 namespace {
 
-/// Largest age of the state that a command answers. The bridge ignores later commands, except 0 V with closed
-/// brakes; LastLine latches command_stale long before.
-constexpr double kNewestCommands_s = 1;
+/// Largest age of the state that a command answers. The bridge ignores commands that answer an
+/// older state, except 0 V with closed brakes. LastLine latches command_stale long before this age.
+constexpr double kOldestAnswered_s = 1;
 
 /// True for 0 V with closed brakes. Such a command is accepted with any sample time.
 bool moves_nothing(const msg::Command& command) {
@@ -56,7 +56,7 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       states_{context.ports.output(topics::state)},
       commands_{context.ports.loop_input(topics::command)},
       requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}},
-      ticks_{kNewestCommands_s, context.rig.period_s},
+      ticks_{kOldestAnswered_s, context.rig.period_s},
       drives_{context.rig.drives} {
   for (std::size_t i = 0; i < kDrives; ++i) {
     const auto& encoder = context.rig.encoders[i];
@@ -153,7 +153,7 @@ void Bridge::take_requests(std::int64_t now_ns) {
     } else {
       const bool kicked = board_->kick(request->kick_radps[0], request->kick_radps[1]);
       requests_.reply(*request, request->header, kicked,
-                      kicked ? "" : "this board is a real rig: push the load by hand");
+                      kicked ? "" : "a real rig has no kick request: push the load by hand");
     }
   }
 }
@@ -183,7 +183,7 @@ void Bridge::tick(const Inputs& inputs, std::int64_t now_ns) {
   states_.publish(sample);
   ++counts_.completed;
   report_latch();
-  look_for_marks(now);
+  step_homing(now);
 }
 
 /// Time of the sample of tick `next` relative to the nominal time of the tick.
@@ -197,7 +197,7 @@ Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t 
 
 /// Homes the axes. A position that becomes known is published from the next tick on; a doubtful position
 /// becomes unknown.
-void Bridge::look_for_marks(const Observation& observation) {
+void Bridge::step_homing(const Observation& observation) {
   for (std::size_t i = 0; i < kDrives; ++i) {
     if (last_line_.doubted()[i]) homing_.forget(i);
     const bool released = command_ && command_->brake_release[i] && last_line_.reason() == Reason::none;
@@ -288,7 +288,8 @@ void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
   if (relay_closed_ && inputs.watchdog_dropped && toggles_ && !inputs.estop_pressed) {
     const auto late_ms = std::llround(static_cast<double>(std::max(interval_ns, interval_ns_)) * 1e-6);
     node_.error("relay_dropped",
-                "the watchdog relay dropped while its output toggled, the last time after " +
+                "the watchdog relay opened although the watchdog output toggled; the longer of the last two "
+                "intervals between toggles was " +
                     std::to_string(late_ms) + " ms",
                 "find the reason for late ticks of the bridge (overruns of crane/state), or check relay and "
                 "relay_timeout_s, then `crane reset`");

@@ -96,7 +96,8 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   });
 }
 
-/// An axis is beyond a hard limit, or cannot stop before it: x +- (v t_brake + v^2 / 2a).
+/// True when a command moves an axis that is beyond a hard limit, or that cannot stop before one: x
+/// +- (v t_brake + v^2 / 2a).
 bool position(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
@@ -231,8 +232,8 @@ bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& inpu
   });
 }
 
-/// Gain of speed beyond that of the commands of the last ticks, as voltage, V. Friction and brakes only
-/// reduce the speed and are ignored.
+/// Increase of speed that the voltages of the last ticks do not explain, as equivalent voltage, V.
+/// Friction and brakes only reduce the speed and are ignored.
 double unexplained_v(const LastLineParameters& parameters, const CheckInput& input, std::size_t i,
                      std::size_t age) {
   const auto ticks = [&parameters](double time_s, std::size_t most) {

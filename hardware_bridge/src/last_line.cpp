@@ -19,7 +19,7 @@ constexpr std::array kProtections{bridge_command_stale, bridge_command_not_finit
                                   bridge_not_homed,     bridge_second_writer};
 static_assert(kProtections.size() + 1 == kReasons);
 
-bool is_made(const Check& check) noexcept {
+bool is_enabled(const Check& check) noexcept {
   return enabled(kProtections[static_cast<std::size_t>(check.reason) - 1]);
 }
 
@@ -81,7 +81,7 @@ void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Observat
 
 Reason LastLine::first_failure(const CheckInput& input) const noexcept {
   const auto failed = std::find_if(checks_.begin(), checks_.end(), [&](const Check& check) {
-    return is_made(check) && check.fails(parameters_, input);
+    return is_enabled(check) && check.fails(parameters_, input);
   });
   return failed == checks_.end() ? Reason::none : failed->reason;
 }

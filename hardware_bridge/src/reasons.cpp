@@ -27,8 +27,8 @@ constexpr std::array<Texts, kReasons> kTexts{{
      "let the load come to rest, then `crane reset`"},
     {"encoder_jump",
      "an encoder changed in one tick by more than any motion can explain: a position is unknown",
-     "check its cable, then `crane reset` and `crane home`; an axis without a mark: move it to its start "
-     "position by hand, then restart the bridge"},
+     "check the cable of the encoder, then `crane reset` and `crane home`; an axis without a mark: move it "
+     "to its start position by hand, then restart the bridge"},
     {"lost_counts",
      "a limit switch or mark operated far from its position: counts are lost, a position is unknown",
      "check encoder and switch, then `crane reset` and `crane home`; an axis without a mark: move it to its "
@@ -43,8 +43,7 @@ constexpr std::array<Texts, kReasons> kTexts{{
      "an axis with unknown position was released without homing, or exceeded the voltage or speed of homing",
      "`crane reset`, then `crane home`"},
     {"second_writer", "crane/command has a second writer",
-     "end the other program, then `crane reset`; if an earlier supervisor hangs beside the present one, end "
-     "the earlier one"},
+     "end the other program, then `crane reset`; a hanging earlier supervisor must be ended, too"},
 }};
 
 const Texts& texts_of(Reason reason) { return kTexts[static_cast<std::size_t>(reason)]; }

@@ -32,7 +32,7 @@ Findings examine_ports() {
   }
   if (errno == ENOSYS)
     return {{Grade::problem, "hw", "board_refused", "this kernel gives no program access to I/O ports",
-             "boot a kernel with CONFIG_X86_IOPL_IOPERM (Debian's has it)"}};
+             "boot a kernel with CONFIG_X86_IOPL_IOPERM (the Debian kernel has this option)"}};
   return {{Grade::problem, "hw", "board_refused",
            std::string{"this user may not use I/O ports: "} + std::strerror(errno),
            "`setcap cap_sys_rawio,cap_sys_nice,cap_ipc_lock+ep` on crane_hardware_bridge and crane"}};

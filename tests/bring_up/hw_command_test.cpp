@@ -54,7 +54,7 @@ TEST_F(Hw, SelftestPrintsOneLinePerFaultAndEndsWithExitCodeOne) {
   const auto wrong = hw({"selftest", "--rig", tower_, "--wired-as", wired});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_EQ(wrong.output,
-            "drives_swapped: the drives of trolley and slew are swapped (analog outputs 0 and 1)\n");
+            "drives_swapped: the trolley and slew drives are swapped (analog outputs 0 and 1)\n");
   const auto json = hw({"selftest", "--rig", tower_, "--wired-as", wired, "--json"});
   EXPECT_EQ(nlohmann::json::parse(json.output)["findings"][0]["subject"], "trolley, slew");
 }

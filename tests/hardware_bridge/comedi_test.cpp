@@ -102,10 +102,11 @@ TEST(ComediBoard, RefusesWithOneLineAndTheRemedy) {
   expect("analog_output_subdevice = 1 is in use", [](auto& device, auto&) { device.locked_by_another = 1; });
   expect("counter_subdevice = 4 is no subdevice", [](auto&, auto& rig) { rig.wiring.counter_subdevice = 4; });
   expect("input_subdevice = 60 is no subdevice", [](auto&, auto& rig) { rig.wiring.input_subdevice = 60; });
-  expect("less than 24 bits", [](auto& device, auto&) { device.largest_count = 0xFFFF; });
+  expect("fewer than 24 bits", [](auto& device, auto&) { device.largest_count = 0xFFFF; });
   expect("no range of +-10 V", [](auto& device, auto&) { device.range_v = 5; });
   expect("does not hold", [](auto& device, auto&) { device.stuck_counter = 3; });
-  expect("6 channels, the rig file uses channel 7", [](auto&, auto& rig) { rig.encoders[2].channel = 7; });
+  expect("6 channels, but the rig file uses channel 7",
+         [](auto&, auto& rig) { rig.encoders[2].channel = 7; });
 }
 
 TEST(ComediBoard, ReportsADeviceThatNoLongerAnswers) {

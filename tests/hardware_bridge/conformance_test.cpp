@@ -53,7 +53,7 @@ TEST_P(Conformance, OpensWithZeroVoltsAndClosedBrakes) {
   EXPECT_EQ(subject_->crane().truth().trolley_m, rig_.start.position[0]);
 }
 
-TEST_P(Conformance, PowersUpAtZeroVoltsNotAtTheCodeZeroThatIsTenVolts) {
+TEST_P(Conformance, PowersUpAtZeroVoltsNotAtTheVoltageOfCodeZero) {
   EXPECT_EQ(subject_->amplifier_v(), kNothing);
   subject_->board().make_safe();
   EXPECT_EQ(subject_->amplifier_v(), kNothing);

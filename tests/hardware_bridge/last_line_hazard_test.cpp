@@ -103,7 +103,7 @@ TEST_P(LastLineFault, IsStoppedInTimeForItsReasonAndRemainsStopped) {
   EXPECT_EQ(timeline.line.reason(), fault.reason) << "a fault that passes must not restart anything";
 }
 
-TEST_P(LastLineFault, WithoutItsCheckIsNotStoppedForThatReasonNorInTime) {
+TEST_P(LastLineFault, WithoutItsCheckIsStoppedLateOrNot) {
   const auto& fault = GetParam();
   std::vector<Check> others;
   std::ranges::copy_if(last_line_checks(), std::back_inserter(others),

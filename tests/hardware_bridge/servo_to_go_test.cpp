@@ -158,7 +158,7 @@ TEST_F(Card, PortDOfModel2HasAnotherAddress) {
   EXPECT_EQ(log_.back(), (Access{'w', 0x605, 1}));
 }
 
-TEST_F(Card, InputsAreActiveLowAndABrokenWireIsTrouble) {
+TEST_F(Card, InputsAreActiveLowSoThatABrokenWireReadsAsTheUnsafeState) {
   const auto board = open();
   auto inputs = board->read();  // no encoder is connected
   EXPECT_TRUE(inputs.estop_pressed && inputs.watchdog_dropped && inputs.limit_low[0] && inputs.limit_high[2]);

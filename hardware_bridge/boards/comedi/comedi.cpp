@@ -14,7 +14,8 @@
 namespace crane::bridge {
 namespace {
 
-constexpr double kNeeded_v = 9.9;  // smallest range: that of a calibrated board ends a little below 10 V
+// smallest accepted range; a calibrated range ends just below 10 V
+constexpr double kNeeded_v = 9.9;
 constexpr int kFirstOutputLine = 16;
 constexpr lsampl_t k24Bits = 0xFFFFFF;
 
@@ -68,15 +69,15 @@ void Comedi::lock(int subdevice, std::initializer_list<int> types, const char* k
   const auto place = std::string{key} + " = " + std::to_string(subdevice);
   if (subdevice >= ::comedi_get_n_subdevices(handle_.device) ||
       std::ranges::find(types, ::comedi_get_subdevice_type(handle_.device, index)) == types.end())
-    fail(place + " is no subdevice of that kind on " + name_ +
-         ": correct [wiring] (comedi_board_info lists them)");
+    fail(place + " does not exist on " + name_ +
+         " or has another type: correct [wiring] (`comedi_board_info` lists the subdevices)");
   if (::comedi_lock(handle_.device, index) != 0) fail(place + " is in use by another program: stop it first");
 }
 
 void Comedi::require_channel(int subdevice, unsigned channel, const char* key) const {
   const int channels = ::comedi_get_n_channels(handle_.device, as_index(subdevice));
   if (static_cast<int>(channel) >= channels)
-    fail(std::string{key} + " has " + std::to_string(channels) + " channels, the rig file uses channel " +
+    fail(std::string{key} + " has " + std::to_string(channels) + " channels, but the rig file uses channel " +
          std::to_string(channel));
 }
 
@@ -127,7 +128,7 @@ void Comedi::start_counter(const Counter& counter) {
   const auto subdevice = as_index(wiring_.counter_subdevice);
   const auto label = "counter " + std::to_string(counter.channel);
   if (::comedi_get_maxdata(handle_.device, subdevice, counter.channel) < k24Bits)
-    fail(label + " has less than 24 bits: use another board");
+    fail(label + " has fewer than 24 bits: use another board");
   if (::comedi_set_counter_mode(handle_.device, subdevice, counter.channel,
                                 NI_GPCT_COUNTING_MODE_QUADRATURE_X4_BITS) < 0 ||
       ::comedi_arm_channel(handle_.device, subdevice, counter.channel, NI_GPCT_ARM_IMMEDIATE) < 0)

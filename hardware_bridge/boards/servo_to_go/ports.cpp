@@ -14,8 +14,7 @@ namespace {
 std::string refusal(int error) {
   if (error == ENOSYS)
     return "this kernel gives no program access to I/O ports: boot a kernel with CONFIG_X86_IOPL_IOPERM "
-           "(Debian's "
-           "has it)";
+           "(the Debian kernel has this option)";
   return std::string{"no permission for the I/O ports of the board: "} + std::strerror(error) +
          "; run as root, or `setcap cap_sys_rawio,cap_sys_nice,cap_ipc_lock+ep` on crane_hardware_bridge and "
          "crane; if root is refused, too, switch Secure Boot off";

@@ -72,8 +72,8 @@ int ServoToGo::recognised_model() const {
                    "): check the card, its address jumpers and base_address in [wiring] of the rig file");
 }
 
-/// Two readings contain two successive indices and their bits of the serial number. Without a card, both are
-/// the same.
+/// Two successive readings of the board test contain successive indices, each with its bit of the
+/// serial number. Without a card, both readings are equal.
 void ServoToGo::check_presence() const {
   const unsigned serial = model_ == 1 ? kSerialModel1 : kSerialModel2;
   const auto index_of = [](unsigned reading) { return (reading >> 4) & 7U; };

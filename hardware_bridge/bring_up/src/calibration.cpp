@@ -96,8 +96,8 @@ class Calibrating {
             "the load hangs at rest " + with_unit(offset_rad, "rad") +
             " from the zero of its encoders, because it swung when the board was opened: "
             "start crane hw calibrate again");
-      if (!yes("the load swings by " + with_unit(swing_rad, "rad") + ", at most " +
-               with_unit(kSettled_rad, "rad") + " counts as rest: steady it by hand; try again?"))
+      if (!yes("the load swings by " + with_unit(swing_rad, "rad") + " (rest: at most " +
+               with_unit(kSettled_rad, "rad") + "); steady the load by hand. Try again?"))
         throw Ended("the load did not come to rest; nothing written");
     }
   }

@@ -11,7 +11,8 @@ namespace crane::bring_up {
 namespace {
 
 constexpr double kFirstPush_v = 1, kMorePush_v = 0.5;
-constexpr double kBrakeTest_v = 3;  // against a closed brake, at most the largest voltage of the selftest
+// voltage of the push against a closed brake; limited by largest_v()
+constexpr double kBrakeTest_v = 3;
 constexpr std::array<double, kDrives> kPushDistance{0.03, 0.1,
                                                     0.02};  // m, rad, m: large enough for a visible swing
 constexpr double kSwingSeen_rad = 0.015;
@@ -71,7 +72,8 @@ class SelftestMotions {
     push(i);
   }
 
-  /// Pushes the axis briefly in both directions. With an open brake it moves by a few centimetres.
+  /// Pushes the axis against its closed brake, briefly in both directions. If the brake does not
+  /// hold, the axis moves by a few centimetres at most.
   void push_against_brake(std::size_t i) {
     auto& axis = evidence_.axis[i];
     axis.push_v = std::min(kBrakeTest_v, largest_v(i));

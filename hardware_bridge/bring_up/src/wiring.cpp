@@ -8,7 +8,8 @@
 namespace crane::bring_up {
 namespace {
 
-constexpr double kClearShare = 0.4;  // share of the expected swing above which its sign is determined
+// from this share of the expected swing on, the sign is significant
+constexpr double kClearShare = 0.4;
 
 std::string text_of(double value, std::string_view unit) {
   char text[40];
@@ -81,19 +82,18 @@ class Judgement {
     const auto output = std::to_string(rig_.wiring.drives[i].brake_release_output);
     if (axis.limit_open)
       add(Fault::limit_open, name,
-          "a limit switch of " + name +
-              " is open: the crane stands at its limit, or a wire is broken (input lines " +
+          "a limit switch of the " + name +
+              " axis is open: the axis is at its limit, or a wire is broken (input lines " +
               std::to_string(rig_.wiring.drives[i].limit_low_input) + " and " +
-              std::to_string(rig_.wiring.drives[i].limit_high_input) + "); not moved");
+              std::to_string(rig_.wiring.drives[i].limit_high_input) + "); the axis was not moved");
     if (!axis.held)
       add(axis.closed_in_use ? Fault::brake_slips : Fault::brake_stays_open, name,
-          "the brake of " + name + (axis.closed_in_use ? " does not hold: " : " does not close: ") +
+          "the " + name + " brake" + (axis.closed_in_use ? " does not hold: " : " does not close: ") +
               "it slipped by " + text_of(axis.slipped, coordinate_unit(i)) + " at " +
               text_of(axis.push_v, "V") + " with output line " + output + " off");
     else if (!axis.closed_at_rest || !axis.closed_in_use)
       add(Fault::brake_contact, name,
-          "the contact of the brake of " + name +
-              " reports open although the brake holds: check input line " +
+          "the contact of the " + name + " brake reports open although the brake holds: check input line " +
               std::to_string(rig_.wiring.drives[i].brake_closed_input));
     else
       judge_opening(i);
@@ -104,7 +104,7 @@ class Judgement {
     const auto name = named(i);
     if (axis.opened && !axis.closed_again)
       add(Fault::brake_slow, name,
-          "the brake of " + name + " does not close within its brake_close_time_s of " +
+          "the " + name + " brake does not close within its brake_close_time_s of " +
               text_of(rig_.drives[i].brake_close_time_s, "s"));
     if (axis.opened) return;
     for (std::size_t k = 0; k < kDrives; ++k) {
@@ -117,7 +117,7 @@ class Judgement {
     }
     if (evidence_.relay_closed && !axis.limit_open)
       add(Fault::brake_stays_closed, name,
-          "the brake of " + name + " does not open with output line " +
+          "the " + name + " brake does not open with output line " +
               std::to_string(rig_.wiring.drives[i].brake_release_output) +
               " on: check its 24 V supply, its coil and its contact (input line " +
               std::to_string(rig_.wiring.drives[i].brake_closed_input) + ")");
@@ -139,7 +139,7 @@ class Judgement {
       judge_standstill(i);
   }
 
-  /// Checks the direction of the counter of the axis, which has changed.
+  /// Judges the signs of drive, encoder and swing encoder of an axis whose counter has changed.
   void judge_direction(std::size_t i) {
     const auto& axis = evidence_.axis[i];
     const bool outward = axis.moved[i] > 0;
@@ -152,10 +152,11 @@ class Judgement {
     if (load > 0) return add_drive_sign(i);
     if (load < 0) return add_encoder_sign(i);
     add(Fault::drive_or_encoder_sign, named(i),
-        named(i) +
-            " counts backwards: either its drive or its encoder has the wrong sign; find the direction "
-            "with crane hw jog and change sign in [drive." +
-            named(i) + "] or [encoder." + named(i) + "]");
+        "the counter of the " + named(i) +
+            " axis decreases under a positive voltage: the drive or the encoder has the wrong sign. Watch "
+            "the axis during `crane hw jog` with a positive voltage. If the axis moves in the negative "
+            "direction, change sign in [drive." +
+            named(i) + "], otherwise in [encoder." + named(i) + "]");
   }
   void add_swing_sign(std::size_t i, std::size_t swing) {
     add_sign(
@@ -164,17 +165,16 @@ class Judgement {
   }
   void add_drive_sign(std::size_t i) {
     add_sign(Fault::drive_sign, i, "drive",
-             "moves the axis in the wrong direction, its encoder is right; swap the motor's leads");
+             "moves the axis in the wrong direction (the encoder is right): swap the motor leads");
   }
   void add_encoder_sign(std::size_t i) {
     add_sign(Fault::encoder_sign, i, "encoder",
-             "counts in the wrong direction, its drive is right; swap A and B");
+             "counts in the wrong direction (the drive is right): swap A and B");
   }
   /// @param part  of the coordinate: drive or encoder
   void add_sign(Fault fault, std::size_t i, const std::string& part, const std::string& what) {
     add(fault, named(i),
-        "the " + part + " of " + named(i) + " " + what + ", or change sign in [" + part + "." + named(i) +
-            "]");
+        "the " + named(i) + " " + part + " " + what + ", or change sign in [" + part + "." + named(i) + "]");
   }
 
   void judge_missing_swing(std::size_t i, std::size_t swing) {
@@ -184,8 +184,9 @@ class Judgement {
         rig_.measures(other) && axis.swung_rad[other - kDrives] > kClearShare * std::abs(axis.expected_rad);
     if (other_swings) return add_swapped_encoders(swing, other);
     add(Fault::swing_dead, named(swing),
-        "the encoder of " + named(swing) + " does not show the swing of the load after a motion of the " +
-            named(i) + ": check its 5 V supply and counter " + std::to_string(rig_.encoders[swing].channel));
+        "the " + named(swing) + " encoder does not show the swing of the load after a motion of the " +
+            named(i) + " axis: check its 5 V supply and counter " +
+            std::to_string(rig_.encoders[swing].channel));
   }
 
   /// @return the counter of a drive that shows the swing of the load
@@ -208,7 +209,7 @@ class Judgement {
   void add_swapped_encoders(std::size_t i, std::size_t k) {
     const auto low = std::min(i, k), high = std::max(i, k);
     add(Fault::encoders_swapped, named(low) + ", " + named(high),
-        "the encoders of " + named(low) + " and " + named(high) + " are swapped (counters " +
+        "the " + named(low) + " and " + named(high) + " encoders are swapped (counters " +
             std::to_string(rig_.encoders[low].channel) + " and " +
             std::to_string(rig_.encoders[high].channel) + ")");
   }
@@ -221,7 +222,7 @@ class Judgement {
       if (k == i || std::abs(axis.moved_unlocked[k]) <= kStandstill) continue;
       const auto low = std::min(i, k), high = std::max(i, k);
       return add(Fault::drives_swapped, named(low) + ", " + named(high),
-                 "the drives of " + named(low) + " and " + named(high) + " are swapped (analog outputs " +
+                 "the " + named(low) + " and " + named(high) + " drives are swapped (analog outputs " +
                      std::to_string(rig_.drives[low].dac_channel) + " and " +
                      std::to_string(rig_.drives[high].dac_channel) + ")");
     }
@@ -229,15 +230,15 @@ class Judgement {
     const auto output = std::to_string(rig_.drives[i].dac_channel);
     if (swing_of(rig_, i) != 0 && std::max(axis.swung_rad[0], axis.swung_rad[1]) > kNoSwing_rad)
       return add(Fault::encoder_dead, name,
-                 "the encoder of " + name + " is dead: the load swings after a push of " +
-                     text_of(axis.push_v, "V") + ", counter " + counter + " does not move");
+                 "the " + name + " encoder is dead: the load swings after a push of " +
+                     text_of(axis.push_v, "V") + ", but counter " + counter + " does not change");
     if (swing_of(rig_, i) != 0)
       return add(Fault::drive_dead, name,
-                 "the drive of " + name + " is dead: neither counter nor load moves at " +
+                 "the " + name + " drive is dead: neither the counter nor the load moves at " +
                      text_of(axis.push_v, "V") + " on analog output " + output +
                      " with its brake open; check amplifier and motor");
     add(Fault::drive_or_encoder_dead, name,
-        "the drive or the encoder of " + name + " is dead: counter " + counter + " does not move at " +
+        "the " + name + " drive or encoder is dead: counter " + counter + " does not change at " +
             text_of(axis.push_v, "V") + " on analog output " + output +
             " with its brake open; check whether the axis moves");
   }

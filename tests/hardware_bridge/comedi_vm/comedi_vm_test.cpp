@@ -120,8 +120,8 @@ TEST(ComediKernel, RefusesEverySubdeviceThatIsNotOfItsKindByItsKey) {
     rig.wiring.*key = subdevice;
     EXPECT_EQ(refusal(rig), std::string{"comedi device "} + kTestDevice + ": " + name + " = " +
                                 std::to_string(subdevice) +
-                                " is no subdevice of that kind on comedi comedi_test: correct [wiring] "
-                                "(comedi_board_info lists them)");
+                                " does not exist on comedi comedi_test or has another type: correct [wiring] "
+                                "(`comedi_board_info` lists the subdevices)");
   };
   for (const int subdevice : {0, 1, 2}) {  // analog inputs, analog outputs, nothing
     expect(&configuration::Wiring::counter_subdevice, subdevice, "counter_subdevice");
@@ -140,7 +140,8 @@ TEST(ComediKernel, RefusesASecondUserAndAMissingChannel) {
   }
   EXPECT_EQ(refusal(rig), "");
   rig.drives[1].dac_channel = 8;
-  EXPECT_THAT(refusal(rig), HasSubstr("analog_output_subdevice has 8 channels, the rig file uses channel 8"));
+  EXPECT_THAT(refusal(rig),
+              HasSubstr("analog_output_subdevice has 8 channels, but the rig file uses channel 8"));
 }
 
 TEST(ComediKernel, TheTerminalsShowTheVoltsThatWereWrittenAndReported) {
@@ -219,10 +220,10 @@ TEST_F(ParallelPort, TogglesTheWatchdogOutputAndLeavesItOff) {
 TEST_F(ParallelPort, RefusesInputsAsOutputsAndMoreLinesThanThereAre) {
   auto rig = port_rig();
   std::swap(rig.wiring.input_subdevice, rig.wiring.output_subdevice);
-  EXPECT_THAT(refusal(rig), HasSubstr("output_subdevice = 1 is no subdevice of that kind"));
+  EXPECT_THAT(refusal(rig), HasSubstr("output_subdevice = 1 does not exist on comedi"));
   rig = port_rig();
   rig.wiring.estop_input = 5;
-  EXPECT_THAT(refusal(rig), HasSubstr("input_subdevice has 5 channels, the rig file uses channel 5"));
+  EXPECT_THAT(refusal(rig), HasSubstr("input_subdevice has 5 channels, but the rig file uses channel 5"));
 }
 
 }  // namespace

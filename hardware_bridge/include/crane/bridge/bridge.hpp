@@ -45,7 +45,7 @@ class Bridge : public runtime::Component {
   void apply(Outputs outputs);
   [[nodiscard]] Latched latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
                                    std::int64_t sample_time_ns) const;
-  void look_for_marks(const Observation& observation);
+  void step_homing(const Observation& observation);
   void report_latch();
   void report_relay(const Inputs& inputs, std::int64_t now_ns);
   [[nodiscard]] Observation observation(const Inputs& inputs) const;
@@ -65,7 +65,7 @@ class Bridge : public runtime::Component {
   runtime::Output<msg::State> states_;
   std::shared_ptr<runtime::LoopReader<msg::Command>> commands_;
   runtime::RequestInbox requests_;
-  runtime::RecentTicks ticks_;  ///< published
+  runtime::RecentTicks ticks_;  ///< headers of the last published states
   runtime::JoinCounts counts_;
   std::optional<CommandView> command_;
   std::optional<std::uint64_t> tick_;  ///< last published tick

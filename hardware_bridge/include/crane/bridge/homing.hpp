@@ -2,9 +2,9 @@
 /// Determines the zeros of the encoders during homing. The position of an axis with Zero::homing is unknown
 /// until its mark has been detected twice: first in the search, then at the approach speed after the axis has
 /// backed off. The second detection determines the position. The counter is set after the brake has closed,
-/// so that no position jumps while a drive is active. The supervisor moves the axis, and requests homing
-/// until then: if the request ends earlier, because homing has failed or was stopped, the position stays
-/// unknown. No I/O and no clock.
+/// so that no position jumps while a drive is active. The supervisor moves the axis, and requests
+/// homing until the counter is set. If the request ends earlier (homing failed or was stopped), the
+/// position stays unknown. No I/O and no clock.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -24,7 +24,7 @@ struct CommandView {
   std::array<double, kDrives> drive_v{};
   std::array<bool, kDrives> brake_release{};
   bool watchdog_permission = false;
-  std::array<bool, kDrives> homing{};  ///< true: the axis creeps to its homing mark
+  std::array<bool, kDrives> homing{};  ///< true: the axis is being homed
 };
 
 /// Measurements of one tick.
@@ -148,9 +148,10 @@ class LastLine {
   [[nodiscard]] Outputs decide(const std::optional<CommandView>& command, std::uint64_t tick,
                                const Observation& observation) noexcept;
 
-  /// The latched reason. A latch that is not final ends in two steps. First, a fresh command with 0 V and
-  /// closed brakes withholds the watchdog permission (the supervisor does so in STOP_C0). Later, such a
-  /// command grants the permission (after the reset by the operator), while no second writer is detected.
+  /// The latched reason. A latch that is not final ends in two steps: a fresh command with 0 V and
+  /// closed brakes withholds the watchdog permission (STOP_C0 of the supervisor); a later fresh
+  /// command with 0 V and closed brakes grants it (after the operator's reset), and no second
+  /// writer is detected.
   [[nodiscard]] Reason reason() const { return reason_; }
   /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }

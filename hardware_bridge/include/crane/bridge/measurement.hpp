@@ -15,8 +15,8 @@ namespace crane::bridge {
 /// and so do the start and the first reading
 class CountUnwrapper {
  public:
-  /// @param start  the first reading counts as the value nearest to `start` that the 24-bit counter can show
-  ///   as this reading
+  /// @param start  expected count. step() first returns the value nearest to `start` that is equal
+  ///   to the reading modulo 2^24
   explicit CountUnwrapper(std::int64_t start = 0) : counts_{start} {}
   [[nodiscard]] std::int64_t step(std::int32_t raw_counts) noexcept;
 

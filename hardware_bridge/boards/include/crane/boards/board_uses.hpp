@@ -1,6 +1,7 @@
 #pragma once
-/// Number of bridges that open a board. A program that starts several bridges, one after the other, detects
-/// by this number that another bridge has opened the board between two of them, and may have moved the axes.
+/// Number of times that a board has been opened. A program that starts several bridges one after
+/// the other detects by this number that another bridge has opened the board in between and may
+/// have moved the axes.
 #include <atomic>
 #include <cstdint>
 #include <string>

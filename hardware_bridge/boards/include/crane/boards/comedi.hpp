@@ -3,7 +3,8 @@
 /// the subdevices in [wiring] of the rig file.
 ///
 /// Counters: at least 24 bits, of which the lowest 24 are used; quadrature, four counts per line. One
-///   instruction list reads all counters and the inputs. The start presets the counters (start_counts()).
+///   instruction list reads all counters and the inputs. The constructor presets the counters
+///   (start_counts()).
 /// Converters: any resolution, with a range of at least +-9.9 V. Voltages are limited to the range; a value
 ///   that is not finite gives 0 V.
 /// Lines: input 0..15 is channel 0..15 of the input subdevice, output 16..31 is channel 0..15 of the output

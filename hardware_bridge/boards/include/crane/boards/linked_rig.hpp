@@ -1,6 +1,6 @@
 #pragma once
-/// The side of the card of the shared lines, in the process of the bridge. plant/emulated_rig contains the
-/// side of the rig.
+/// Card side of the shared lines, in the process of the bridge. plant/emulated_rig contains the rig
+/// side.
 #include <memory>
 #include <string>
 

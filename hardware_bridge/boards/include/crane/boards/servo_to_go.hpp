@@ -1,10 +1,9 @@
 #pragma once
 /// Driver of the Servo-to-Go ISA card, models 1 and 2 (docs/hardware.md describes registers and wiring).
 ///
-/// Counters: all counters in use are latched within a few port accesses before the first byte is read. The
-///   start presets the counters (start_counts()).
-/// Converters: see crane/bridge/converter.hpp. Inputs: active low (normally closed contacts).
-/// Outputs: on is high.
+/// Counters: all counters in use are latched within a few port accesses before the first byte is
+/// read. The constructor presets the counters (start_counts()). Converters: see
+/// crane/bridge/converter.hpp. Inputs: active low (normally closed contacts). Outputs: on is high.
 #include <array>
 #include <cstdint>
 #include <memory>

@@ -53,7 +53,8 @@ struct SharedLines {
 
   std::atomic<std::uint32_t> faults{0};  ///< sum of CardFault
 
-  // request of the card: advance to `until_ns`, the rig's time in lockstep, CLOCK_MONOTONIC in real time
+  // Request of the card: the rig advances to `until_ns` (lockstep: rig time; real time:
+  // CLOCK_MONOTONIC).
   sem_t advance{}, reached{};
   std::atomic<std::int64_t> until_ns{0};
 

@@ -32,8 +32,8 @@ struct Calibration {
 };
 
 /// The board is at 0 V with closed brakes during every question and at the end.
-/// @throws Ended; std::runtime_error when a brake does not hold, an encoder does not follow, or the load
-///   does not come to rest
+/// @throws Ended, also when the load does not come to rest; std::runtime_error when a brake does
+///   not hold, an encoder does not follow, or an axis reaches a limit switch
 [[nodiscard]] Calibration calibrate(Session& session, const CalibrationOptions& options);
 
 /// @return text of a rig file for the path `file`, which extends the file of `rig` by the calibrated values

@@ -1,8 +1,8 @@
 #pragma once
 /// Pushes each drive over a short distance and records the reaction of the rig as evidence for judge() of
 /// wiring.hpp.
-/// Required: the crane is at [start] of the rig file, the load hangs nearly at rest, and each axis has 10 cm
-/// (0.2 rad) of free travel in both directions.
+/// @pre the crane is at [start] of the rig file, the load hangs nearly at rest, and each axis has
+///   10 cm (0.2 rad) of free travel in both directions
 #include <functional>
 #include <string>
 

@@ -31,7 +31,8 @@ struct Sample {
 };
 using Record = std::vector<Sample>;
 
-/// The session has ended: Ctrl-C, the emergency stop, or a program that was suspended. what() says why.
+/// The session has ended: because of Ctrl-C, the emergency stop or a suspension of this program.
+/// what() is the reason.
 class Ended : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -59,6 +60,7 @@ class Session {
   /// suspended for longer than relay_timeout_s of the rig file. The session then ends, because the next
   /// toggle would release the brakes again.
   /// @throws Ended, also when the relay has opened, or the tick lasted longer than relay_timeout_s
+  ///   and two periods
   /// @param drive_v  V; the session applies the sign of the drive in the rig file: a positive voltage moves
   ///   the axis outwards
   const Sample& tick_driven(const std::array<double, kDrives>& drive_v,

@@ -36,13 +36,13 @@ struct AxisEvidence {
   double drift = 0;                          ///< motion with open brake at 0 V, m or rad
   std::array<double, kDrives> moved{};       ///< motion by the counter of each axis, m or rad
   std::array<double, kSwingCount> shifted_rad{};  ///< permanent change of each swing counter at rest
-  std::array<double, kSwingCount> swung_rad{};    ///< added swing
-  double expected_rad = 0;  ///< swing that the motion of the suspension point should add, sign of the encoder
+  std::array<double, kSwingCount> swung_rad{};    ///< amplitude of the added swing
+  double expected_rad = 0;  ///< amplitude of the swing that the measured motion should add, >= 0
   double share = 0;         ///< measured share of expected_rad (share_of())
   /// After the push, with closed brakes: swing that the counter of a drive shows, in the scale of the swing
   /// encoder.
   std::array<double, kDrives> counter_swings_rad{};
-  /// As `moved`, measured with all brakes open whose contact did not report open.
+  /// As `moved`, measured with the brakes of all axes open whose push had moved nothing.
   std::array<double, kDrives> moved_unlocked{};
 };
 
