@@ -109,7 +109,7 @@ TEST(CdrCodec, EncodesNothingWhenTheBufferIsTooSmall) {
   }
 }
 
-TEST(CdrCodec, RefusesAStringWithoutItsEnd) {
+TEST(CdrCodec, RefusesAStringWithoutTerminator) {
   msg::Event event{};
   std::memset(event.code, 'x', sizeof event.code);
   EXPECT_TRUE(encoded(CdrCodec::of(crane_Event_desc), &event).empty());

@@ -93,7 +93,7 @@ TEST(LedgerTest, HasNoStandardDescriptor) {
   EXPECT_TRUE(still_closed);
 }
 
-TEST(LedgerTest, OfAnotherFormOrOpenToOthersIsRefusedWithTheRule) {
+TEST(LedgerTest, WithAnotherLayoutOrWriteAccessOfOthersIsRefusedWithTheRule) {
   const auto refusal = [](const std::string& path) -> std::string {
     try {
       (void)Ledger::open(path);
@@ -110,7 +110,7 @@ TEST(LedgerTest, OfAnotherFormOrOpenToOthersIsRefusedWithTheRule) {
 }
 
 /// Two stacks on one memory network: a reader accepts the writer that has the same ledger.
-TEST(LedgerOfABus, MarksSamplesOfProgramsWithoutIt) {
+TEST(LedgerOfABus, MarksSamplesOfProgramsThatWriteNoLedger) {
   const auto network = make_memory_network();
   // The wire marks samples as not delivered as sealed, as DDS does.
   set_wire(*network, [](const auto&, const void* carried, const Deliver& deliver) { deliver(carried); });

@@ -157,7 +157,7 @@ TEST_F(Memory, ADisposedInstanceIsReportedOnRequest) {
   EXPECT_FALSE(does_not.take());
 }
 
-TEST_F(Memory, RefusesAStringWithoutItsEnd) {
+TEST_F(Memory, RefusesAStringWithoutTerminator) {
   Bus a = bus();
   auto writer = a.publisher(topics::event);
   msg::Event event{};

@@ -37,7 +37,7 @@ TEST_F(AgreementOfTwoInputs, StatesTheOwnConfigurationWhileAllInputsHaveIt) {
   EXPECT_FALSE(agreement_.other());
 }
 
-TEST_F(AgreementOfTwoInputs, StatesZeroAndNamesTheProcessWithAnotherOne) {
+TEST_F(AgreementOfTwoInputs, StatesZeroAndNamesTheProcessWithAnotherConfiguration) {
   note(state_with(kOwn), contribution_with(kOther));
   EXPECT_EQ(agreement_.configuration(), 0U);
   EXPECT_EQ(agreement_.other(), crane_SOURCE_TRACKING);

@@ -91,7 +91,7 @@ TEST_F(Inbox, RefusesARequestForATickThatIsHoursAhead) {
   EXPECT_EQ(refusals(), 0U);
 }
 
-TEST_F(Inbox, AFloodFillsNeitherItsMemoryNorATick) {
+TEST_F(Inbox, IsBoundedInMemoryAndTimePerTickDuringAFlood) {
   for (std::uint64_t id = 1; id <= 1000; ++id) send(id, 500'000);
   int calls = 0;
   while (inbox_.receive()) ++calls;

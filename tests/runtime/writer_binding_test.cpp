@@ -41,7 +41,7 @@ class Binding : public testing::Test {
   WriterBinding binding_{topics::command.description};
 };
 
-TEST_F(Binding, IsThatOfTheFirstPermittedWriter) {
+TEST_F(Binding, AcceptsOnlyTheFirstPermittedWriter) {
   EXPECT_EQ(binding_.judge(writer(9, 7, crane_SOURCE_OPERATOR), ms(0), matched({9})), Verdict::foreign);
   EXPECT_FALSE(binding_.bound());
   supervisor_speaks_until(100);

@@ -15,8 +15,9 @@
 namespace crane::bus {
 
 /// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. A ring is stored until the next
-/// wait. While `rung_` is set, another ring is unnecessary: the woken thread clears `rung_` before it reads
-/// the queues, and finds both samples. This order requires sequential consistency.
+/// wait. If `rung_` is already set, ring() has no effect: the woken thread clears `rung_` before it
+/// reads the queues, and therefore finds the later sample, too. This order requires sequential
+/// consistency.
 class Doorbell {
  public:
   /// A sample of `topic` has arrived.
@@ -32,8 +33,9 @@ class Doorbell {
     }
     condition_.notify_one();
   }
-  /// Replaces the wake-up of wait() by samples. Call before the first endpoint exists.
-  void call(ArrivalHandler on_arrival) { on_arrival_ = std::move(on_arrival); }
+  /// From now on, samples call `on_arrival` and no longer wake wait(). Call before the first
+  /// endpoint exists.
+  void set_arrival_handler(ArrivalHandler on_arrival) { on_arrival_ = std::move(on_arrival); }
   bool wait(std::chrono::nanoseconds timeout) {
     if (timeout.count() <= 0) return rung_ && rung_.exchange(false);
     std::unique_lock lock{mutex_};

@@ -81,7 +81,9 @@ Bus Bus::share(crane_Source source, std::uint32_t epoch) const {
 }
 
 bool Bus::wait(std::chrono::nanoseconds timeout) { return state_->doorbell->wait(timeout); }
-void Bus::call_on_arrival(ArrivalHandler on_arrival) { state_->doorbell->call(std::move(on_arrival)); }
+void Bus::call_on_arrival(ArrivalHandler on_arrival) {
+  state_->doorbell->set_arrival_handler(std::move(on_arrival));
+}
 const Options& Bus::options() const { return state_->options; }
 
 UntypedPublisher Bus::make_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {

@@ -29,9 +29,8 @@ inline constexpr std::uint32_t kMostParticipants = most_participants();
 [[nodiscard]] std::string no_free_number(const Options& options);
 /// @return message for the case that the middleware does not state why it could not join
 [[nodiscard]] std::string cannot_join(const Options& options);
-/// @return true when both ports of the participant number were free on all own interfaces; another process
-/// may
-///   bind them later
+/// @return true when both ports of the participant number were free on all own interfaces; another
+///   process may bind them later
 [[nodiscard]] bool has_free_ports(const Options& options, std::uint32_t number);
 
 /// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface

@@ -17,7 +17,7 @@ constexpr double kReading_rad = 1e-4;
 // 0.2 rad/s2 at a swing of 5 deg. A larger value follows a wrong model closer and passes more encoder noise.
 constexpr double kModel_radps2 = 0.5;
 constexpr double kForce_rad = 0.01;        // standard deviation of the force, as an angle
-constexpr double kForceMemory_s = 20;      // time within which the force changes
+constexpr double kForceMemory_s = 20;      // correlation time of the force (exponential decay)
 constexpr double kStartSwing = 1;          // standard deviation of swing (rad) and rate (rad/s) at the start
 constexpr double kStartOffset_rad = 0.02;  // standard deviation of the offset at the start
 constexpr double kMostAngle_rad = 1.4;     // the equations are singular at pi/2
@@ -199,7 +199,7 @@ void PendulumObserver::predict(Plane& plane) const noexcept {
   plane.unknowns.force_rad *= kept;
 }
 
-Measurement at_effect(const CraneEstimate& estimate) noexcept {
+Measurement predicted_measurement(const CraneEstimate& estimate) noexcept {
   const plant::State& s = estimate.state;
   return {.position = {s.trolley_m, s.slew_rad, s.cable_m},
           .speed = {s.trolley_mps, s.slew_radps, s.cable_mps},
@@ -219,7 +219,7 @@ class ObservedLaw final : public Law {
 
   Contribution step(const Measurement& measured, const Reference& reference) noexcept override {
     // NaN is passed on to the law and, through the output of the law, to the gate of the supervisor.
-    const Measurement ahead = finite(measured) ? at_effect(observer_.step(measured)) : measured;
+    const Measurement ahead = finite(measured) ? predicted_measurement(observer_.step(measured)) : measured;
     Reference wanted = reference;
     for (auto& axis : wanted) {
       axis.position += period_s_ * (axis.speed + period_s_ / 2 * axis.acceleration);

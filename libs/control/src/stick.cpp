@@ -10,7 +10,7 @@
 namespace crane::control {
 namespace {
 
-/// Shares of a shaper whose half period is `half_ticks`.
+/// Impulses of the shaper for a swing period of 2 `half_ticks`.
 ShaperImpulses impulses_of(Shaping shaping, std::size_t half_ticks, double period_s) noexcept {
   const double swing_period_s = 2 * static_cast<double>(half_ticks) * period_s;
   const Shaper shaper{shaping, swing_period_s};
@@ -85,8 +85,8 @@ PositionRange release_in(const StickAxisLimits& limits, const ShaperImpulses& im
   return release_of(impulses, rate, axis);
 }
 
-/// Largest u >= 0 whose stop needs at most `distance`: u^2 / (2 b) + u m = distance, with the braking b of u
-/// and the mean delay m of the shaper.
+/// Largest u >= 0 whose stop needs at most `distance`: u^2 / (2 b) + u m = distance, with the
+/// deceleration b of u and the mean delay m of the shaper.
 double speed_for(double distance, double braking, double mean_s) noexcept {
   if (!(distance > 0)) return 0;
   return braking * (std::sqrt(mean_s * mean_s + 2 * distance / braking) - mean_s);
@@ -169,11 +169,11 @@ bool s_at_rest(const StickMemory& memory) noexcept {
 /// tests/control/stick_test.cpp measures for random histories.
 std::array<StickAxisLimits, kAxes> limits_of_s(const StickLimits& limits,
                                                const Reference& reference) noexcept {
-  constexpr double kHoisting = 0.9;  // limits of s / limits of P in a session with hoisting
-  constexpr double kSlewing = 0.5;   // limits of s / limits of P in a session with slewing
-  constexpr double kThrown = 0.08;   // largest r gamma'^2 / acceleration limit of the trolley
-  constexpr double kRoom = 0.02;     // distance between the radial limits of s and P / radius
-  constexpr double kTurn = 0.05;     // distance between the slew limits of s and P, rad
+  constexpr double kHoisting = 0.9;               // limits of s / limits of P in a session with hoisting
+  constexpr double kSlewing = 0.5;                // limits of s / limits of P in a session with slewing
+  constexpr double kMostCentrifugalShare = 0.08;  // largest r gamma'^2 / acceleration limit of the trolley
+  constexpr double kRoom = 0.02;                  // distance between the radial limits of s and P / radius
+  constexpr double kTurn = 0.05;                  // distance between the slew limits of s and P, rad
   auto axis = limits.axis;
   const auto scale = [&axis](std::size_t i, double share) {
     axis[i].speed *= share;
@@ -184,9 +184,9 @@ std::array<StickAxisLimits, kAxes> limits_of_s(const StickLimits& limits,
   if (!(axis[kSlew].speed > 0) || !(axis[kTrolley].acceleration > 0)) return axis;
   const double radius_m =
       std::max(limits.axis[kTrolley].speed > 0 ? axis[kTrolley].high : 0.0, reference[kTrolley].position);
-  const double thrown_mps2 = kThrown * limits.axis[kTrolley].acceleration;
+  const double centrifugal_mps2 = kMostCentrifugalShare * limits.axis[kTrolley].acceleration;
   scale(kTrolley, kSlewing), scale(kSlew, kSlewing);
-  axis[kSlew].speed = std::min(axis[kSlew].speed, std::sqrt(thrown_mps2 / std::max(radius_m, 1e-3)));
+  axis[kSlew].speed = std::min(axis[kSlew].speed, std::sqrt(centrifugal_mps2 / std::max(radius_m, 1e-3)));
   axis[kSlew].low += kTurn;
   axis[kSlew].high -= kTurn;
   axis[kTrolley].low += kRoom * std::abs(axis[kTrolley].low);

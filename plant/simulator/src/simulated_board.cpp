@@ -56,7 +56,8 @@ struct SimulatedBoard::Rig {
     tick_ends_ns = now_ns + period_ns;
   }
 
-  /// Sensor terms act once per reading time: a second read at the same time gives the same values.
+  /// The sensor terms act at the first read at a time; a second read at the same time returns the
+  /// same values.
   [[nodiscard]] const plant::Measurement& measured() noexcept {
     if (measured_at_ns != now_ns) measurement = mechanism.measure();
     measured_at_ns = now_ns;

@@ -11,9 +11,10 @@ namespace {
 // Chosen values; docs/adaptation.md explains the method. "Level of the file": level of the rig file.
 constexpr int kBlock_ticks = 6;    // duration of a block: quantises the friction of the slew axis by 0.01 V
 constexpr int kSkipped_ticks = 2;  // start of a motion: the second difference still covers the time at rest
-constexpr double kLearnBands = 2;  // lowest speed / zero band: the break-away excess has decayed above
-constexpr double kMargin = 1;      // estimate minus level in use, in standard deviations
-constexpr int kLeastBlocks = 3;    // fewest blocks of a direction before its levels are used
+// lowest speed of learning / zero band; above this speed the break-away excess has decayed
+constexpr double kLearnBands = 2;
+constexpr double kMargin = 1;         // estimate minus level in use, in standard deviations
+constexpr int kLeastBlocks = 3;       // fewest blocks of a direction before its levels are used
 constexpr double kDeadShare = 0.003;  // smallest change that is installed / level of the file
 constexpr double kRamp_vps = 1;       // largest rate of change of a level in use
 constexpr int kRefused = 5;           // consecutive refused blocks after which the friction counts as changed
@@ -25,8 +26,9 @@ constexpr double kExcitedShare = 0.06;
 // by kLowerMargin standard deviations plus kLowerShare of the Coulomb level of the file.
 constexpr double kLowerMargin = 2, kLowerShare = 0.01;
 constexpr int kLowerBlocks = 2;
-// An oscillation lowers a level to kCeilingCut of the known friction, or to kLeastUnknown of the level of the
-// file, but not below kCeilingCut of the level.
+// An oscillation lowers a level to kCeilingCut times the known friction; where the friction is not
+// known, to kLeastUnknown times the level of the file. One oscillation lowers a level by at most
+// the factor kCeilingCut.
 constexpr double kCeilingCut = 0.9, kLeastUnknown = 0.75;
 constexpr double kCeilingRise = 1.02;  // factor of the largest permitted level per move without oscillation
 // The previous levels return when the rms residual of the levels in use exceeds kWorse times that of the

@@ -1,6 +1,7 @@
 #pragma once
-/// One writer and one reader directly on a DDS implementation, without checksum, check of the writer and
-/// counts. `crane bench tick` measures their latency: the lower bound for bus.hpp, which a crane uses.
+/// One writer and one reader directly on a DDS implementation: no checksum, no writer check, no
+/// counts. `crane bench tick` measures the latency of this link: a lower bound for the latency of
+/// bus::Bus.
 #include <chrono>
 #include <memory>
 

@@ -79,10 +79,11 @@ class Bus {
 
   /// From now on, the bus calls `on_arrival` for each sample that arrives at one of its subscribers, and
   /// wait() sleeps until its timeout. Receive threads of the vendor, which may hold locks, and publishing
-  /// threads of this process call `on_arrival`, also at the same time. `on_arrival` must not overlap its
-  /// calls of take and publish (crane/runtime/turn.hpp), wait for another thread, or publish `topic`. Reason
-  /// of the last rule: Cyclone DDS runs one callback of a reader at a time, and the callback of the new
-  /// sample would wait for the present one forever.
+  /// threads of this process call `on_arrival`, also at the same time. Two calls must not take or
+  /// publish at the same time (crane/runtime/turn.hpp). `on_arrival` must not wait for another
+  /// thread, and must not publish `topic`. Reason of the last rule: Cyclone DDS runs one callback
+  /// of a reader at a time, and the callback of the new sample would wait for the present one
+  /// forever.
   /// @pre no subscriber of this bus exists
   void call_on_arrival(ArrivalHandler on_arrival);
 

@@ -20,8 +20,8 @@ namespace crane::bus {
 /// a writer by choosing its GUID prefix or by forging RTPS packets (docs/security.md).
 using WriterId = std::array<std::uint8_t, 16>;
 
-/// Identifies the DDS participant of a writer: equal for all writers of one participant, which a Bus and its
-/// shares (Bus::share) have in common; different for any two participants. Over DDS, the GUID prefix.
+/// Identifies the DDS participant of a writer. Equal for all writers of a participant (a Bus and
+/// its shares, Bus::share), different for any two participants. Over DDS: the GUID prefix.
 using ParticipantId = std::array<std::uint8_t, 12>;
 /// The writer has ended before its sample was taken: its participant cannot be determined.
 inline constexpr ParticipantId kUnknownParticipant{};

@@ -47,8 +47,9 @@ struct DirectionReport {
 struct AxisReport {
   AdaptationPhase phase = AdaptationPhase::off;
   AdaptationFreeze freeze = AdaptationFreeze::none;
-  std::array<DirectionReport, 2> direction;       ///< positive, negative
-  double innovation_v = 0, innovation_std_v = 0;  ///< of the last block: unexplained voltage, its deviation
+  std::array<DirectionReport, 2> direction;  ///< positive, negative
+  /// unexplained voltage of the last block, and its standard deviation
+  double innovation_v = 0, innovation_std_v = 0;
   /// rms voltage of the last judged move that the levels in use and the previous levels leave unexplained
   double move_residual_v = 0, previous_residual_v = 0;
   double confidence = 0;  ///< accuracy of the Coulomb levels; 0: that of the rig file, 1: exact

@@ -40,14 +40,14 @@ enum class PathOutcome : std::uint8_t {
   no_path         ///< no path was found; the zones of `blocking` bound the free space around the start
 };
 
-/// Least clearance of a target, and of the start and the end of a path, m. The noise of the zone filter at
-/// rest is smaller.
+/// Least clearance of a target, and of the start and the end of a path, m: larger than the noise of
+/// the clearance that the zone filter computes at rest.
 inline constexpr double kRestClearance_m = 0.02;
 /// Least clearance of all legs but the first and the last, m. At the lowest speed of a leg, the zone filter
 /// does not stop the crane at this clearance.
 inline constexpr double kPassClearance_m = 0.05;
-/// Largest distance of start and target, m: longer than any move of a crane. It bounds the time of a search
-/// from a wrong position.
+/// Largest distance between start and target, m: longer than any move of a crane. The limit bounds
+/// the time of a search from a wrong measured position.
 inline constexpr double kLargestDistance_m = 1000;
 
 /// End of a leg.

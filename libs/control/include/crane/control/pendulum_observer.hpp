@@ -61,7 +61,7 @@ class PendulumObserver {
 
 /// Predicted measurement at the time when the command acts. The swing angles are phi - e and theta - e: wind
 /// does not displace the crane.
-[[nodiscard]] Measurement at_effect(const CraneEstimate& estimate) noexcept;
+[[nodiscard]] Measurement predicted_measurement(const CraneEstimate& estimate) noexcept;
 
 /// Wraps the law in a pendulum observer. Returns a law that already has an observer unchanged.
 [[nodiscard]] std::unique_ptr<Law> with_observer(std::unique_ptr<Law> law, const Design& design);

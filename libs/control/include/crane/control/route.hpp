@@ -16,9 +16,10 @@
 namespace crane::control {
 
 struct RouteStyle {
-  bool blends = false;    ///< false: the reference rests for delay_s at each waypoint
-  bool overlaps = false;  ///< true: a blended leg begins before the previous leg has ended; false: at its end
-  double delay_s = 0;     ///< s, delay of the shaper, or lag of the controller behind its reference; >= 0
+  bool blends = false;  ///< false: the reference rests for delay_s at each waypoint
+  /// true: a blended leg begins before the previous leg ends; false: when the previous leg ends
+  bool overlaps = false;
+  double delay_s = 0;       ///< s, delay of the shaper, or lag of the controller behind its reference; >= 0
   double speed_factor = 1;  ///< factor of all speeds, in (0, 1]
 };
 

@@ -33,8 +33,8 @@
 
 namespace crane::control {
 
-/// Number of slots for pending changes of speed. It limits the cable: the swing period of the longest cable
-/// must not exceed kStickSlots - 3 ticks.
+/// Number of ticks for which pending changes of speed can be stored. Limits the cable length: the
+/// swing period of the longest cable must not exceed kStickSlots - 3 ticks.
 inline constexpr std::size_t kStickSlots = 4096;
 
 /// One axis; "unit" is m (trolley, hoist) or rad (slew).

@@ -3,12 +3,12 @@
 ///
 /// Direct multiple shooting with N intervals of equal length T/N and constant volts. The model has the
 /// nonlinear equations of the tower with centrifugal coupling (plant/equations.hpp) and friction; each
-/// interval is one Runge-Kutta step with exact first derivatives. The objective is T plus a small effort, so
-/// that volts without influence on T are zero. The limits on volts, swing, speed and position hold at the
-/// ends of the intervals.
-/// Solver: primal-dual interior point method. A Riccati recursion over the intervals solves the Newton step,
-/// so that the computation time is proportional to N. The result does not depend on a clock: equal problems
-/// have equal plans.
+/// interval is one Runge-Kutta step with exact first derivatives. The objective is T plus a small
+/// effort, so that a drive that does not limit T has no unnecessary voltage. The limits on volts,
+/// swing, speed and position hold at the ends of the intervals. Solver: primal-dual interior point
+/// method. A Riccati recursion over the intervals solves the Newton step, so that the computation
+/// time is proportional to N. The result does not depend on a clock: equal problems have equal
+/// plans.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>

@@ -1,11 +1,12 @@
 #pragma once
-/// Reads and writes measured data as CSV: separator comma, one header line, one number per cell. A file has
-/// any subset of the canonical columns, with `time_s` first, and then other columns. The sampling may be
-/// non-uniform. Row k has the measurement at t_k and the voltage that acts from t_k on. Each number is
-/// written as the shortest text that gives the same double when read. Equal data therefore give equal bytes.
-/// An empty cell and `nan` are read as NaN. The reader takes the most frequent of comma, semicolon and tab in
-/// the header as separator. With semicolons or tabs, it also accepts decimal commas. A date with time of day
-/// (ISO 8601) is read as seconds since 1970.
+/// Reads and writes measured data as CSV: separator comma, one header line, one number per cell.
+/// `time_s` is the first column; any of the other canonical columns and then other columns follow.
+/// The sampling may be non-uniform. Row k contains the measurement at t_k and the voltage that acts
+/// from t_k on. Each number is written as the shortest text that gives the same double when read.
+/// Equal data therefore give equal bytes. An empty cell and `nan` are read as NaN. The reader takes
+/// the most frequent of comma, semicolon and tab in the header as separator. With semicolons or
+/// tabs, it also accepts decimal commas. A date with time of day (ISO 8601) is read as seconds
+/// since 1970.
 #include <array>
 #include <cstddef>
 #include <filesystem>

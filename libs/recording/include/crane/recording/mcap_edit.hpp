@@ -17,7 +17,7 @@ class EditError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A range of log time, in s from the first message of the recording, as of `crane log cut`
+/// Range of log time of `crane log cut`, s since the first message of the recording
 /// (docs/data.md#recordings).
 struct TimeRange {
   double from_s = 0;
@@ -32,8 +32,8 @@ struct TimeRange {
 /// @throws ReadError, WriteError; EditError when no message is within the range
 CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const std::filesystem::path& out);
 
-/// Merges recordings, as `crane log merge` (docs/data.md#recordings). Adds the metadata record "merge" with
-/// the names of the files.
+/// Merges recordings (`crane log merge`, docs/data.md#recordings). Adds the metadata record "merge"
+/// with the names of the files.
 /// @return number of copied messages, and the damage of all files
 /// @throws ReadError, WriteError; EditError when one recording is named twice, or two recordings have
 ///   different schemas of one type, different types of one topic, different attachments of one name, or

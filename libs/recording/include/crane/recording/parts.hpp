@@ -1,5 +1,6 @@
 #pragma once
-/// The files of a recording that is split into parts: run.mcap names run_000001.mcap, run_000002.mcap, ...
+/// The files of a recording that is split into parts: the name run.mcap stands for run_000001.mcap,
+/// run_000002.mcap, ...
 #include <cstdint>
 #include <filesystem>
 #include <vector>

@@ -1,7 +1,9 @@
 #pragma once
 /// Base class of most components: it joins the samples of one tick and calls one step per tick.
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "crane/runtime/agreement.hpp"
 #include "crane/runtime/component.hpp"
@@ -46,8 +48,10 @@ class JoinedComponent : public Component {
   }
   [[nodiscard]] std::int64_t wake_at_ns() const override { return join_.due_ns().value_or(kNever); }
   [[nodiscard]] std::string waiting_for() const override {
-    return "tick " + std::to_string(join_.next_tick()) +
-           ", inputs missing (bit mask): " + std::to_string(join_.missing());
+    std::string text = "tick " + std::to_string(join_.next_tick()) + "; missing inputs:";
+    for (std::size_t i = 0, named = 0; i < topic_names_.size(); ++i)
+      if ((join_.missing() >> i & 1U) != 0) text.append(named++ == 0 ? " " : ", ").append(topic_names_[i]);
+    return text;
   }
 
  protected:
@@ -59,7 +63,8 @@ class JoinedComponent : public Component {
         ports_{context.ports},
         monotonic_ns_{context.monotonic_ns},
         join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...},
-        agreement_{context.node.identity().configuration} {}
+        agreement_{context.node.identity().configuration},
+        topic_names_{inputs.description.name...} {}
 
   /// Computes one step. The leader is never null; another input is null only when its sample is missing and
   /// steps_incomplete_ticks() is true.
@@ -111,6 +116,7 @@ class JoinedComponent : public Component {
   std::int64_t (*monotonic_ns_)();  ///< see Context
   TickJoin<Inputs...> join_;
   Agreement<sizeof...(Inputs)> agreement_;
+  std::array<std::string_view, sizeof...(Inputs)> topic_names_;
   std::optional<crane_Source> reported_;  ///< process with another configuration, named in the last event
   bool disputed_ = false;
 };

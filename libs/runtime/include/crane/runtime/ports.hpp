@@ -16,9 +16,10 @@ enum class Clock : std::uint8_t {
   realtime,  ///< the clock master follows CLOCK_MONOTONIC; a late process loses the tick
   lockstep,  ///< the plant starts tick k+1 after command k; no process can be late, and runs are reproducible
              ///< bit for bit
-  prescribed  ///< a replay of a run in real time: the runner delivers the samples that the process had. The
-              ///< second poll() after a state finishes its tick without the missing inputs; a poll() without
-              ///< a state, later than the last step, is a step of the supervisor without a state
+  /// replay of a real-time run: the runner delivers the recorded samples. The second poll() after a
+  /// state finishes the tick of this state without the missing inputs. A poll() after the last step
+  /// and without a new state makes the supervisor step without a state
+  prescribed
 };
 
 /// Endpoint options of loop topics. In lockstep a process that joins late must receive every tick from the

@@ -70,8 +70,8 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 /// Time for which a process searches for another writer before its first sample. Discovery across vendors can
 /// take longer; therefore the readers also check for a second writer at every tick (writer_binding.hpp).
 inline constexpr std::chrono::milliseconds kWriterSearchTime{400};
-/// The same for a process with all components of the loop. It stops another stack with its first samples, and
-/// discovery across vendors takes up to 1 s.
+/// kWriterSearchTime of a process with all components of the loop: longer than discovery across
+/// vendors (up to 1 s), because the first samples of this process would stop another stack.
 inline constexpr std::chrono::milliseconds kLoopWriterSearchTime{1200};
 
 /// @throws bus::Error that names both versions when a program of this crane has messages of another version

@@ -21,7 +21,7 @@ class RealtimeScheduling {
   /// Locks the memory and requests SCHED_FIFO for every thread of this process, because the receive threads
   /// of the bus need the priority of the loop. Call this last: start-up work must not preempt running
   /// processes.
-  /// @param priority  1 to 99; 0 or less: does nothing
+  /// @param priority  1 to 99 (LoopOptions: at most 98); 0 or less: does nothing
   [[nodiscard]] Answer enter(int priority);
 
  private:

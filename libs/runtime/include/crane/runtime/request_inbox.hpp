@@ -19,7 +19,7 @@ class RequestInbox {
   /// Maximum number of requests that wait for their tick. A scripted run schedules fewer than ten; the limit
   /// bounds the memory when a sender floods the topic.
   static constexpr std::size_t kMostWaiting = 256;
-  /// Requests beyond kMostWaiting that are kept when they stop the crane now.
+  /// Further places for requests that stop the crane at once.
   static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
@@ -27,11 +27,11 @@ class RequestInbox {
   /// @param kinds  kinds of request that this process executes; it ignores all others
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
 
-  /// Takes up to 64 requests from the bus. Ignores requests whose source may not write crane/request. Refuses
-  /// a request when kMostWaiting requests wait already; a stop that acts at once has kMostStops more places.
-  /// In lockstep, answers a request for a later tick with the reason "scheduled". In real time, refuses a
-  /// request for a later tick, which could start a motion after its operator has left or after a stop; a stop
-  /// for a later tick acts at once.
+  /// Takes up to 64 requests from the bus. Ignores requests whose source may not write
+  /// crane/request. Refuses a request when kMostWaiting requests wait; kMostStops further places
+  /// are reserved for stops that act at once. In lockstep, answers a request for a later tick with
+  /// the reason "scheduled". In real time, refuses a request for a later tick, which could start a
+  /// motion after its operator has left or after a stop; a stop for a later tick acts at once.
   /// @return true when a request arrived
   bool receive();
   /// Call at each tick of this run. @param now_ns  local time of the tick
@@ -41,9 +41,10 @@ class RequestInbox {
   void stopped(std::int64_t now_ns) { stopped_ns_ = now_ns; }
   /// @param sender  participant that sent the request
   /// @return the next request that is due at `tick`, in the order of arrival; nothing when there is none.
-  ///   Refuses requests that are due later than kFarthest_ticks after `tick`. In real time, refuses a request
-  ///   that does not stop the crane unless its header has the tick and the sample time of a tick of this run
-  ///   (stepped()) that is not older than kRequestLife_s and not before the last stop.
+  ///   Refuses requests that are due later than kFarthest_ticks after `tick`. In real time, a
+  ///   request that does not stop the crane must name (in its header: tick and sample time) a tick
+  ///   of this run (stepped()) that is at most kRequestLife_s old and not before the last stop; it
+  ///   is refused otherwise.
   [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick, std::int64_t now_ns,
                                                      bus::ParticipantId* sender = nullptr);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);

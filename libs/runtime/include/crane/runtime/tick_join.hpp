@@ -1,7 +1,8 @@
 #pragma once
 /// Combines the samples of one tick from several topics. The first input is the leader: its sample k opens
-/// tick k. Real time: the newest tick is open for a bounded time; if an input is still missing after this
-/// time, the tick counts as lost. Lockstep: every tick is open in order, without a time limit.
+/// tick k. Real time: the newest tick stays open for a bounded time; if an input is still missing
+/// then, the tick counts as lost. Lockstep: the ticks are opened one after the other, without a
+/// time limit.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -16,9 +17,9 @@ namespace crane::runtime {
 
 struct JoinPolicy {
   bool in_order = true;  ///< true: lockstep; false: real time
-  /// Real time: longest wait for the other inputs after the poll() that opens the tick. The first poll()
-  /// that comes at least bound_ns / 2 after the end of the wait extends the wait by bound_ns / 2 from then
-  /// on. 0: the second poll() finishes the tick without its missing inputs.
+  /// Real time: longest wait for the other inputs after the poll() that opens the tick. If a poll()
+  /// comes bound_ns / 2 or more after the end of the wait, the wait is extended once, to bound_ns /
+  /// 2 after this poll(). 0: the second poll() finishes the tick without its missing inputs.
   std::int64_t bound_ns = 0;
   std::size_t depth = 8;       ///< ticks that an input may be ahead of the slowest input
   std::int64_t period_ns = 0;  ///< real time: period of the ticks, for the check of tick numbers; 0: no check

@@ -1,7 +1,7 @@
 #pragma once
-/// Runs the component of a process in the thread that delivers a sample; after wake() and at the times that
-/// the component requests, in the main thread. A hand-over to another thread would delay each sample by one
-/// wake-up.
+/// Runs the component of a process: in the thread that delivers a sample, and in the main thread
+/// after wake() and at the times that the component requests. A hand-over to another thread would
+/// delay each sample by one wake-up.
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -43,7 +43,8 @@ class Turn {
 
   std::int64_t (*monotonic_ns_)();
   std::atomic<Component*> component_ = nullptr;
-  std::atomic<unsigned> requests_ = 0;  ///< calls of run() that the running thread serves; 0: none runs
+  /// calls of run() that the running thread serves; 0: no thread runs the component
+  std::atomic<unsigned> requests_ = 0;
   std::int64_t period_ns_ = 0;
 
   std::mutex mutex_;  ///< protects the members below

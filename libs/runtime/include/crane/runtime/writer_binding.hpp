@@ -34,8 +34,8 @@ class WriterBinding {
   /// A writer that has sent nothing for this time has ended, hangs or is disconnected. The value is four
   /// times the maximum age of a command that the bridge accepts at 100 Hz.
   static constexpr std::int64_t kSilence_ns = 200'000'000;
-  /// A topic remains disputed for this time after the last detection. The supervisor requires that its causes
-  /// are inactive for the same time.
+  /// A topic remains disputed for this time after the last detection. Same value as clear_time_s:
+  /// the time without a cause before the supervisor accepts a reset.
   static constexpr std::int64_t kDispute_ns = 1'000'000'000;
 
   explicit WriterBinding(const topics::Description& topic) : topic_{&topic} {}
@@ -70,7 +70,8 @@ class WriterBinding {
   /// Describes a DDS writer, for messages; empty when nothing is known.
   using OriginOf = std::function<std::string(const bus::WriterId&)>;
   /// The dispute, for messages: "accepted: supervisor 4711 (ORIGIN), silent for 12 ms; refused: supervisor
-  /// 4712 (ORIGIN), 3 samples". The numbers are start-up numbers; the silence is that of the last detection.
+  /// 4712 (ORIGIN), 3 samples". The numbers are start-up numbers; the silence is measured at the
+  /// last detection.
   [[nodiscard]] std::string dispute(const OriginOf& origin_of) const;
   [[nodiscard]] const topics::Description& topic() const { return *topic_; }
 

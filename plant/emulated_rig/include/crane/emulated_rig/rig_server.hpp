@@ -1,6 +1,6 @@
 #pragma once
-/// The side of the rig of the shared lines, in the process crane_emulated_rig. crane/boards/linked_rig.hpp is
-/// the side of the card.
+/// Rig side of the shared lines, in the process crane_emulated_rig. The card side is
+/// crane/boards/linked_rig.hpp.
 #include <cstdint>
 #include <memory>
 #include <string>

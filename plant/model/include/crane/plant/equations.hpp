@@ -108,8 +108,9 @@ struct CableTension {
 [[nodiscard]] double energy_j(const Parameters& parameters, const State& state) noexcept;
 
 /// Equations of the gantry, (2.5), (2.6), with the swing sign of the source's gantry chapter:
-/// r_L = {x + L sin(phi), -L cos(phi)}, hence phi = -State::radial_rad. @pre load mass > 0
-/// They do not depend on position and speed of the trolley.
+/// r_L = {x + L sin(phi), -L cos(phi)}, hence phi = -State::radial_rad. The equations do not
+/// depend on position and speed of the trolley.
+/// @pre load mass > 0
 struct GantryState {
   double swing_rad = 0;    ///< phi of the gantry chapter: positive with the load ahead of the trolley
   double swing_radps = 0;  ///< rate of swing_rad

@@ -23,8 +23,8 @@ using InnerEquations = std::array<InnerEquation, kMostInner>;
 /// Inputs of the model; constant between two events of the rig.
 struct Actuation {
   PerAxis drive_v{};  ///< output of the amplifiers, after the command terms [V]
-  /// Braking force on a moving axis: N, N m; for the hoist m/s2, which replaces the acceleration of its
-  /// drive.
+  /// Braking force on the moving trolley [N], braking torque on the moving slew axis [N m]. Hoist:
+  /// acceleration [m/s2] that replaces the acceleration of the drive.
   PerAxis brake_effort{};
   Locks locks;
   std::array<bool, kMostInner>
@@ -54,7 +54,8 @@ class Model {
   [[nodiscard]] PerAxis drive_voltage(const PerAxis& command_v) noexcept;
 
   /// Friction of the drives, the sum over the drive terms minus Term::relieve_friction [V].
-  /// @param drive_v  output of the amplifiers [V]: friction in a gear grows with the force it carries
+  /// @param drive_v  output of the amplifiers [V]: friction in a gear grows with the force that the
+  ///   gear transmits
   [[nodiscard]] PerAxis friction_v(const State& state, const PerAxis& drive_v) const noexcept;
   [[nodiscard]] double friction_v(const State& state, double drive_v, Axis axis) const noexcept;
   /// As friction_v(), but 0 V for a locked axis.
@@ -80,8 +81,8 @@ class Model {
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation,
                                             const PerAxis& friction_v, const InnerState& inner,
                                             InnerAccelerations& inner_accelerations) const noexcept;
-  /// For an integrator that needs the accelerations of one state with several frictions: solution() gives the
-  /// accelerations of accelerations().
+  /// For an integrator that needs the accelerations in one state for several frictions: equations()
+  /// once, then solution() for each friction. The result equals that of accelerations().
   [[nodiscard]] ModelEquations equations(const State& state, const Actuation& actuation,
                                          const PerAxis& friction_v, const InnerState& inner) const noexcept;
   [[nodiscard]] Accelerations solution(const ModelEquations& equations, const Actuation& actuation,

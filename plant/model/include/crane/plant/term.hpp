@@ -20,7 +20,8 @@ struct Inner {
   double rate = 0;      ///< m/s or rad/s
 };
 /// Equation of motion of an inner coordinate q: q'' = free + by_trolley x'' + ... + by_cable L'', linear in
-/// the accelerations of drives and swing. Units: those of q'' and of q'' per acceleration.
+/// the accelerations of drives and swing. `free` has the unit of q''; each by_* has the unit of q''
+/// divided by that of its acceleration.
 struct InnerEquation {
   double free = 0;
   double by_trolley = 0, by_radial = 0, by_slew = 0, by_tangential = 0, by_cable = 0;

@@ -55,7 +55,8 @@ struct Event {
 struct Advance {
   double elapsed_s = 0;        ///< integrated time: the whole span, or the time of the event
   std::optional<Event> event;  ///< the first event; nothing: no event
-  /// Suitable first step of the next span, whose motion is similar: a step that is too long must be repeated.
+  /// Suggested first step of the next span, for a similar motion. A step that is too long costs a
+  /// rejected step.
   double next_first_step_s = 0;
 };
 

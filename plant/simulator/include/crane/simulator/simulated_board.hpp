@@ -4,7 +4,8 @@
 ///
 /// Encoders: the raw count is the nearest integer of sign * (coordinate - zero) * counts_per_unit, wrapped to
 /// 24 bits and sign-extended. A coordinate is 0 with the trolley at the tower axis, slew angle 0, cable
-/// length 0, or the load at rest. The sensor terms of the model act once per reading time.
+/// length 0, or the load at rest. The sensor terms of the model act once per time at which read()
+/// is called: two reads at the same time return the same values.
 ///
 /// Converters: see crane/bridge/converter.hpp. Drives: the voltage of the board, multiplied by the sign of
 /// the drive; then the command terms, once per tick.

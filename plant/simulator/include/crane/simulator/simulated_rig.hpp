@@ -52,7 +52,9 @@ struct SimulatedRig {
   bool tangential_swing = true;  ///< false for a gantry
   plant::State start{.trolley_m = 0.25};
   Method integrator = Method::cvode;
-  double period_s = 0.01;            ///< sampling period; command and sensor terms act once per period, > 0
+  /// Sampling period, > 0. The command terms act once per period, the sensor terms once per time at
+  /// which the board is read.
+  double period_s = 0.01;
   bool estop_cuts_brakes = true;     ///< true: the emergency stop interrupts the brake supply by wire
   double watchdog_timeout_s = 0.05;  ///< the relay opens when the level has not changed for longer than this
   double watchdog_permit_s = 0.05;   ///< an open relay closes after uninterrupted toggling for this time

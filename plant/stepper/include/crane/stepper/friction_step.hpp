@@ -28,8 +28,8 @@ struct FrictionStep {
 template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near, double friction_near) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
-  /// Share of the excess by which the speed first changes. The slope of the function is at least 1, and about
-  /// 100 where dry friction holds an axis.
+  /// The first step changes the speed by this share of the excess. The slope of the function is at
+  /// least 1, and about 100 where dry friction holds an axis.
   constexpr double kFirstShare = 0.01;
   constexpr int kSecants = 5;
   if (!(std::abs(c) < kDivergedSpeed && std::abs(near) < kDivergedSpeed)) return c;

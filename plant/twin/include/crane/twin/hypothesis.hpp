@@ -13,8 +13,9 @@ namespace crane::twin {
 
 /// One row of the table of the causes. docs/twin.md shows the table.
 struct CauseKind {
-  const char* name;       ///< of the term or of the step in the residual, or "unknown"
-  const char* parameter;  ///< of the term that has the size; nullptr: the cause is not a term of the model
+  const char* name;  ///< name of a term of the model or of a step of the residual, or "unknown"
+  /// parameter of the term that is the size of the cause; nullptr: not a term of the model
+  const char* parameter;
   std::vector<double> sizes;  ///< reference sizes; empty: no hypothesis
   bool either_sign;           ///< true: one hypothesis for each sign
   double shown_per_size;      ///< factor from `sizes` to the unit in `sizes_text`
