@@ -44,7 +44,7 @@ Injection brake_stays_open(Bench& bench, Random& random) {
   Injection injection{.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE),
                                                   latched(crane_LATCH_BRAKED_MOTION)},
                                       .detection_ms = 100,
-                                      .brakes_are_broken = true},
+                                      .brakes_do_not_close = true},
                       .watched_s = 1.5};
   if (silent || hangs)
     injection.expectation.detection_ms =
@@ -71,7 +71,7 @@ Injection slides_without_latch(Bench& bench, Random& /*random*/) {
                           .detection_ms = kBound_ms,
                           .supervisor_must_find = crane_CAUSE_BRAKE_DID_NOT_CLOSE,
                           .independent_ms = kBound_ms,
-                          .brakes_are_broken = true},
+                          .brakes_do_not_close = true},
           .watched_s = 1.5,
           .visible = slips(bench, bench.axis())};
 }

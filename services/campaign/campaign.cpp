@@ -48,7 +48,7 @@ void watch(Bench& bench, const Injection& injection, Run& run) {
     bench.tick();
     if (!run.visible_ns && (!injection.visible || injection.visible())) run.visible_ns = bench.now().time_ns;
     const bool must_go_on =
-        injection.expectation.brakes_are_broken || injection.expectation.detection_ms > 1000;
+        injection.expectation.brakes_do_not_close || injection.expectation.detection_ms > 1000;
     over_s = is_over(bench) && !(must_go_on && t_s < injection.watched_s) ? over_s + period_s : 0;
   }
 }

@@ -1,7 +1,7 @@
 #pragma once
-/// Fault-injection campaign: many faults on many simulated cranes. The tuple of a run reproduces the run. The
-/// crane is prepared once per setting and moment; every run continues in a forked process, so that runs share
-/// only the preparation.
+/// Fault-injection campaign: many faults on many simulated cranes. A run is defined, and can be
+/// repeated, by its Tuple (hazard, moment, seed). The crane is prepared once per setting and
+/// moment; every run continues in a forked process, so that runs share only the preparation.
 #include <filesystem>
 #include <functional>
 #include <optional>

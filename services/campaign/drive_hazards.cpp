@@ -49,7 +49,7 @@ Injection overspeed(Bench& bench, Random& random) {
       falsify(topics::demand, [i, volts_v](msg::Demand& demand) { demand.total_v[i] = volts_v; });
   return {.expectation = {.reasons = {because(crane_CAUSE_OVERSPEED)}, .detection_ms = 20},
           .watched_s = 3,
-          .visible = crosses(bench, because(crane_CAUSE_OVERSPEED))};
+          .visible = crosses_limit(bench, because(crane_CAUSE_OVERSPEED))};
 }
 
 /// Detection time: 10 ms after the axis can no longer stop before its limit.
@@ -63,7 +63,7 @@ Injection position_limit(Bench& bench, Random& random) {
                           .outwards_axis = i,
                           .outwards = direction(bench)},
           .watched_s = 4,
-          .visible = crosses(bench, because(crane_CAUSE_STOPPING_ENVELOPE))};
+          .visible = crosses_limit(bench, because(crane_CAUSE_STOPPING_ENVELOPE))};
 }
 
 /// One demand beyond the range of the drive, against the motion, as a controller may publish it. The gate

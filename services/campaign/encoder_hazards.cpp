@@ -86,7 +86,7 @@ Injection lost_counts(Bench& bench, Random& random) {
   };
   return {.expectation = {.reasons = {latched(crane_LATCH_LOST_COUNTS), because(crane_CAUSE_LIMIT_SWITCH)},
                           .detection_ms = 10,
-                          .position_is_false = true},
+                          .position_is_wrong = true},
           .watched_s = 1.5,
           .visible = [&bench, i] {
             const auto inputs = bench.rig().board().read();

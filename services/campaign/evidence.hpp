@@ -1,10 +1,10 @@
 #pragma once
-/// Time from which the true motion distinguishes a faulty drive or encoder from a rig within its tolerances
-/// (docs/safety.md): gain 25 %, offset 0.3 V, friction 0 to 1.5 times that of the rig file plus 0.3 V, load 0
-/// to 1.5 times. Motion beyond the tolerances is an unexplained speed. The fault is visible when the
-/// unexplained speed reaches 10 % of max_speed plus 10 % of the speed plus four counts per tick: twice the
-/// limit of the checks, which can then decide from at least one sample. The detection time (30 ms, hazard 20)
-/// starts when the fault is visible.
+/// Determines from which time on the true motion proves a fault of a drive or an encoder: no rig
+/// within the tolerances of docs/safety.md can move like this. Tolerances: gain 25 %, offset 0.3 V,
+/// friction 0 to 1.5 times that of the rig file plus 0.3 V, load 0 to 1.5 times. Motion beyond the
+/// tolerances is an unexplained speed. The fault is visible when the unexplained speed reaches 10 %
+/// of max_speed plus 10 % of the speed plus four counts per tick: twice the limit of the
+/// supervisor's checks. The detection time (30 ms, hazard 20) starts then.
 #include <complex>
 #include <cstddef>
 #include <optional>

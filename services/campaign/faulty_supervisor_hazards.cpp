@@ -45,7 +45,7 @@ Injection drives_past_its_limit(Bench& bench, Random& random) {
   Injection injection = faulty_supervisor(bench, direction(bench) * random.between(3, 8), false);
   injection.expectation.reasons = {latched(crane_LATCH_POSITION)};
   injection.expectation.detection_ms = 10;
-  injection.visible = crosses(bench, latched(crane_LATCH_POSITION));
+  injection.visible = crosses_limit(bench, latched(crane_LATCH_POSITION));
   return injection;
 }
 
@@ -55,7 +55,7 @@ Injection swings_past_its_limit(Bench& bench) {
   push(bench, kAboveLimit * bench.setting().configured.limits.swing_limit_rad);
   injection.expectation.reasons = {latched(crane_LATCH_SWING)};
   injection.expectation.detection_ms = 10;
-  injection.visible = crosses(bench, latched(crane_LATCH_SWING));
+  injection.visible = crosses_limit(bench, latched(crane_LATCH_SWING));
   return injection;
 }
 
@@ -122,16 +122,16 @@ Injection creeps_with_closed_brake(Bench& bench) {
     inputs.raw_counts[i] =
         simulator::wrap_24_bit(std::int64_t{inputs.raw_counts[i]} + counts(bench, i, *moved));
   };
-  return {
-      .expectation = {.reasons = {latched(crane_LATCH_BRAKED_MOTION)},
-                      .detection_ms = 20,
-                      .position_is_false = true,
-                      .supervisor_faulty = true,
-                      .bridge_must_latch = crane_LATCH_BRAKED_MOTION,
-                      .independent_ms = 20,
-                      .brakes_are_broken = true},  // the run continues although the crane was already stopped
-      .watched_s = 1.5,
-      .visible = sees_error(bench, i, bench.setting().configured.drives[i].brake_slip)};
+  return {.expectation = {.reasons = {latched(crane_LATCH_BRAKED_MOTION)},
+                          .detection_ms = 20,
+                          .position_is_wrong = true,
+                          .supervisor_faulty = true,
+                          .bridge_must_latch = crane_LATCH_BRAKED_MOTION,
+                          .independent_ms = 20,
+                          // the run continues although the crane was already stopped
+                          .brakes_do_not_close = true},
+          .watched_s = 1.5,
+          .visible = sees_error(bench, i, bench.setting().configured.drives[i].brake_slip)};
 }
 
 Injection bridge_alone(Bench& bench, Random& random) {

@@ -30,7 +30,7 @@ std::function<bool()> sees_error(Bench& bench, std::size_t counter, double error
   return [&bench, counter, error] { return bench.rig().shown_error()[counter] > error; };
 }
 
-std::function<bool()> crosses(Bench& bench, Reason reason) {
+std::function<bool()> crosses_limit(Bench& bench, Reason reason) {
   return [&bench, reason] {
     return is_true(reason, bench.setting().configured, bench.rows(), bench.rows().size() - 1);
   };

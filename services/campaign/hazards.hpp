@@ -51,8 +51,8 @@ struct Hazard {
   /// Changes the rig before the stack starts; null: no change. The preparation of such a run is not shared
   /// with another run.
   void (*prepare)(Setting&, Random&) = nullptr;
-  /// Injects the fault at the moment. It may run ticks for its requests: the onset is the tick after it
-  /// returns.
+  /// Injects the fault at the moment. The function may run ticks, to send requests; the onset is
+  /// the first tick after its return.
   Injection (*inject)(Bench&, Random&) = nullptr;
 };
 
@@ -90,7 +90,7 @@ void push(Bench& bench, double rad);
 /// A limit switch is pressed at a wrong position of the axis.
 [[nodiscard]] Injection switch_at_wrong_position(Bench& bench, Random& random);
 /// True when the true state is beyond the limit that the reason names.
-[[nodiscard]] std::function<bool()> crosses(Bench& bench, Reason reason);
+[[nodiscard]] std::function<bool()> crosses_limit(Bench& bench, Reason reason);
 /// Longer than the 1 s for which all causes must be inactive before a reset.
 inline constexpr double kClear_s = 1.2;
 /// Expects that the newest request is refused.

@@ -95,7 +95,8 @@ Injection starved(Bench& bench, Random& random) {
   };
   if (once) return nothing();
   // The late bridge itself delays the stop by up to one tick.
-  return {.expectation = {.reasons = {because(crane_CAUSE_OVERRUN)}, .detection_ms = 40, .acts_late_ms = 10}};
+  return {
+      .expectation = {.reasons = {because(crane_CAUSE_OVERRUN)}, .detection_ms = 40, .bridge_delay_ms = 10}};
 }
 
 constexpr std::array kProcessHazards{

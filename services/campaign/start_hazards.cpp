@@ -129,7 +129,7 @@ void request_homing(Bench& bench) {
 /// 0.02 m off the mark at 0.01 m/s; times 1.5 for starts and stops.
 Injection homing(Bench& bench, Random& random) {
   request_homing(bench);
-  Injection injection{.expectation = {.detection_ms = 14'000, .position_is_false = true}, .watched_s = 16};
+  Injection injection{.expectation = {.detection_ms = 14'000, .position_is_wrong = true}, .watched_s = 16};
   switch (random.pick(4)) {
     case 0:
       injection.expectation.reasons = {because(crane_CAUSE_HOMED)};

@@ -20,7 +20,8 @@ namespace crane::cli {
 struct CraneUse {
   std::int64_t loop_ns = 0;   ///< processes of the control loop
   std::int64_t other_ns = 0;  ///< crane up, black box
-  double memory_mb = 0;       ///< proportional set size: a page of n processes counts 1/n in each process
+  /// proportional set size: a page that n processes share counts 1/n for each
+  double memory_mb = 0;
   int processes = 0;
 };
 [[nodiscard]] CraneUse use_of(pid_t crane_up);

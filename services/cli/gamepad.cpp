@@ -17,10 +17,10 @@ void Gamepad::read(double now_s) {
   events_.clear();
   const int error = reader_(events_);
   for (const auto& event : events_) law_.take(event, now_s);
-  if (law_.waits_for_centre() && !asked_for_centre_)
+  if (law_.waits_for_centre() && !centre_requested_)
     print_unless_blocked(STDERR_FILENO,
                          "gamepad: let go of the sticks: they act after they have been in the centre\n");
-  asked_for_centre_ = law_.waits_for_centre();
+  centre_requested_ = law_.waits_for_centre();
   if (error == ENODEV)
     problem_ = "the gamepad " + name_ +
                " was unplugged: the stick is released; plug it in again and start "

@@ -32,7 +32,7 @@ class Gamepad : public OperatorStick {
   GamepadLaw law_;
   std::vector<GamepadEvent> events_;
   std::string problem_;
-  bool asked_for_centre_ = false;
+  bool centre_requested_ = false;
 };
 
 }  // namespace crane::cli

@@ -2,10 +2,10 @@
 /// Law of the gamepad: maps its events to deflections of the stick. Time is an argument.
 ///
 /// The codes are those of the Linux gamepad specification (docs.kernel.org/input/gamepad.html):
-///   left stick, vertical    ABS_Y      trolley; pushed away from the operator: outwards
-///   left stick, horizontal  ABS_X      slew; right: positive
-///   right stick, vertical   ABS_RY     hoist; pulled towards the operator: down
-///   left shoulder           BTN_TL     dead-man's button: the sticks act only while it is held
+///   left lever, vertical    ABS_Y      trolley; pushed away from the operator: outwards
+///   left lever, horizontal  ABS_X      slew; right: positive
+///   right lever, vertical   ABS_RY     hoist; pulled towards the operator: down
+///   left shoulder           BTN_TL     dead-man's button: the levers act only while it is held
 ///   right shoulder          BTN_TR     micro-speed while held
 ///   lower action button     BTN_SOUTH  return to the stop point, while the dead-man's button is held
 #include <array>
@@ -39,9 +39,10 @@ using StickRanges = std::array<StickRange, 3>;
 
 class GamepadLaw {
  public:
-  /// Smallest dead zone, as a share of half the range; a larger dead zone of the driver applies instead.
-  /// 16-bit sticks return to within 4096 of 32768 counts of the centre, although their drivers report 128
-  /// (Android, key layout of the controller 0e6f:f501).
+  /// Smallest dead zone, as a share of half the range; a larger dead zone of the driver applies
+  /// instead. Real 16-bit levers return only to within 4096 of 32768 counts of the centre, while
+  /// their drivers report a dead zone of 128 counts (Android, key layout of the controller
+  /// 0e6f:f501).
   static constexpr double kDeadZone = 0.125;
   /// Longest time without a movement of a button or selected stick. A gamepad reports only changes: silence
   /// with a deflected stick means a still hand or a broken radio link. The keyboard releases the stick after
@@ -58,8 +59,8 @@ class GamepadLaw {
   /// requested; the last movement of a button or selected stick is at most kSilence_s old. After a longer
   /// silence, the operator must release the button and press it again.
   [[nodiscard]] bool engaged(double now_s) const;
-  /// Deflection of the selected axes, independent of engaged(): 0 in the dead zone, ±1 at the ends of the
-  /// range, ±0.1 there in micro-speed.
+  /// Deflection of the selected axes, independent of engaged(): 0 in the dead zone; at the ends of
+  /// the range ±1, in micro-speed ±0.1.
   [[nodiscard]] std::array<double, 3> deflection() const;
   /// True when the dead-man's button is held, but the sticks have not been in their dead zones since it was
   /// pressed.

@@ -96,7 +96,8 @@ bool JogLoop::execute(const char* what, const AxisTargets& targets) {
 
 void JogLoop::inch(const InchingStep& step) {
   if (!options_.selected.at(step.axis)) {
-    std::cerr << "inch: the " << plant::kCoordinates.at(step.axis).name << " is not one of the --axes\n";
+    std::cerr << "inch: axis " << plant::kCoordinates.at(step.axis).name
+              << " is not selected: add the axis to --axes\n";
     return;
   }
   constexpr double kPatience_s = 5;  // longest wait for the first samples
@@ -115,8 +116,8 @@ void JogLoop::inch(const InchingStep& step) {
 
 void JogLoop::go_back() {
   if (!stop_point_ || !moves_.measured()) {
-    std::cerr << "return: no stop point: a stop, or a motion of another client, removes it; release the "
-                 "stick first\n";
+    std::cerr << "return: there is no stop point (a stop or a move by another client deletes it); deflect "
+                 "and release the stick to set a new one\n";
     return;
   }
   if (!execute("return", back_to(*stop_point_, *moves_.measured(), options_.selected))) return;

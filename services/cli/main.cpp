@@ -94,8 +94,7 @@ const CLI::App& deepest_of(const CLI::App& app) {
 int written(int exit_code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-  std::cerr
-      << "crane: standard output: not everything could be written: the disk is full, or the output closed\n";
+  std::cerr << "crane: standard output is incomplete: the disk is full, or the reader has closed the pipe\n";
   return exit_code == runtime::kExitDone ? runtime::kExitFailed : exit_code;
 }
 

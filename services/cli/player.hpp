@@ -55,7 +55,8 @@ class Player {
   /// @param rate  seconds of the recording per second
   /// @return false when another writer has appeared or a stop signal has arrived
   [[nodiscard]] bool play(const recording::Selection& selection, std::int64_t begin_ns, double rate);
-  /// Waits until the readers have received the last samples, because the end of a writer loses its samples.
+  /// Waits until the readers have received the last samples: a writer that ends drops
+  /// unacknowledged samples.
   void finish() const;
 
   /// Loop topic with a foreign writer, which ended play(); nothing otherwise.

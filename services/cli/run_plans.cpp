@@ -68,9 +68,9 @@ void require_own_directories(const RunOptions& options, const std::vector<experi
   for (const auto& plan : plans) {
     const auto [other, first] = scenarios.try_emplace(directory_name(options, plan), plan.scenario.path);
     if (!first)
-      problems.push_back(plan.scenario.path + ": its run would overwrite that of " + other->second + " in " +
-                         (std::filesystem::path{options.out} / other->first).string() +
-                         "; run them with different --out");
+      problems.push_back(plan.scenario.path + ": the results would overwrite those of " + other->second +
+                         " in " + (std::filesystem::path{options.out} / other->first).string() +
+                         "; run the two scenarios with different --out");
   }
   if (!problems.empty()) throw configuration::ConfigurationError(problems);
 }

@@ -71,7 +71,7 @@ std::string with_deviation(double value, double deviation, int digits) {
 
 const char* freeze_text(crane_AdaptationFreeze reason) {
   constexpr std::array kTexts{"learns",
-                              "oscillated about its rest",
+                              "oscillated at standstill",
                               "rolled back",
                               "waits for consecutive ticks",
                               "brake closed",
@@ -143,7 +143,7 @@ void print_latch(std::ostream& out, const msg::State& state) {
       << bridge::explanation_of(reason) << ": " << bridge::remedy_for(reason) << '\n';
 }
 
-std::vector<std::string> unheard(const Snapshot& snapshot) {
+std::vector<std::string> silent_processes(const Snapshot& snapshot) {
   const auto heard = [&](const runtime::ComponentSpec& process) {
     return std::ranges::any_of(snapshot.nodes | std::views::values,
                                [&](const msg::NodeStatus& node) { return node.name == process.name; });
@@ -183,7 +183,7 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
     const bool twin_heard = twins.matched() == 0 || snapshot.twin;
     const bool adaptation_heard = adaptations.matched() == 0 || snapshot.adaptation;
     return twin_heard && adaptation_heard && snapshot.supervisor && snapshot.state &&
-           unheard(snapshot).empty() && now_ns - changed_ns > quiet_ns;
+           silent_processes(snapshot).empty() && now_ns - changed_ns > quiet_ns;
   });
   snapshot.other_versions = bus.other_versions();
   return snapshot;
@@ -211,7 +211,7 @@ nlohmann::ordered_json to_json(const Snapshot& snapshot) {
   nlohmann::ordered_json result;
   result["nodes"] = nlohmann::ordered_json::array();
   for (const auto& [number, node] : snapshot.nodes) result["nodes"].push_back(to_json(topics::node, node));
-  result["unheard"] = unheard(snapshot);
+  result["unheard"] = silent_processes(snapshot);
   result["supervisor"] = nullptr;
   if (snapshot.supervisor) {
     result["supervisor"] = to_json(topics::supervisor, *snapshot.supervisor);
@@ -241,9 +241,10 @@ void print(std::ostream& out, const Snapshot& snapshot) {
   }
   if (snapshot.twin) print_twin(out, *snapshot.twin);
   if (snapshot.adaptation) print_adaptation(out, *snapshot.adaptation);
-  for (const auto& name : unheard(snapshot))
-    out << "no status   of " << name
-        << ": it does not run, or the network loses its samples; try a longer --timeout, crane doctor\n";
+  for (const auto& name : silent_processes(snapshot))
+    out << "no status   " << name
+        << ": the process does not run, or the network loses its samples; try a longer --timeout, or `crane "
+           "doctor`\n";
   for (const auto& other : snapshot.other_versions) out << "version     " << bus::refusal(other) << '\n';
   if (!snapshot.supervisor) out << "supervisor  no status received: the crane cannot move\n";
   if (!snapshot.state) out << "crane/state  no sample received: neither bridge nor plant publishes it\n";

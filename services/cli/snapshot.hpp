@@ -19,7 +19,7 @@ struct Snapshot {
 };
 
 /// Processes of the loop that are missing from the snapshot: "plant or hardware_bridge", "tracking", ...
-[[nodiscard]] std::vector<std::string> unheard(const Snapshot& snapshot);
+[[nodiscard]] std::vector<std::string> silent_processes(const Snapshot& snapshot);
 
 /// Listens until three conditions are true, at most for `timeout_s`: every process of the loop has reported;
 /// no further process has been discovered for 0.3 s, with keys 1.5 s; crane/state and crane/supervisor have

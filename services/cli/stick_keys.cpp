@@ -101,9 +101,9 @@ void StickKeys::take_pass(std::string_view bytes, double now_s) {
   const double arrived_s =
       std::exchange(previous_pass_s_, now_s).value_or(-std::numeric_limits<double>::infinity());
   const bool backlog = now_s - arrived_s > kFirst_s || bytes.size() > kMostNewBytes;
-  if (backlog && !bytes.empty()) settled_s_ = now_s + kRepeat_s;
+  if (backlog && !bytes.empty()) backlog_until_s_ = now_s + kRepeat_s;
   const bool stops = bytes.find_first_of(" q") != std::string_view::npos;
-  keys_move_ = !backlog && !stops && now_s >= settled_s_;
+  keys_move_ = !backlog && !stops && now_s >= backlog_until_s_;
   take(bytes, arrived_s);
   if (!keys_move_) pending_.clear();
   keys_move_ = true;

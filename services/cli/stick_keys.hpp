@@ -28,11 +28,11 @@ class StickKeys {
   /// Modes at the start; the keys m and i change them.
   explicit StickKeys(bool micro = false, bool inching = false) : micro_{micro}, inching_{inching} {}
 
-  /// Takes all bytes that wait in the terminal; call in every pass, also without bytes. The keys act from the
-  /// time of the previous pass on: a key that is found after kFirst_s does not move the crane. Keys are
-  /// a backlog in the first pass, more than kFirst_s after the previous pass, and in a pass of more than
-  /// kMostNewBytes. Arrow and page keys do nothing, and r only releases the stick, in a backlog, for
-  /// kRepeat_s after a backlog with keys, and in a pass with space or q.
+  /// Takes all bytes that wait in the terminal; call in every pass, also without bytes. The keys
+  /// count from the previous pass on. A pass is a backlog if it is the first pass, if it comes more
+  /// than kFirst_s after the previous pass, or if it has more than kMostNewBytes. In three cases,
+  /// arrow and page keys have no effect and r only releases the stick: in a backlog, for kRepeat_s
+  /// after a backlog with keys, and in a pass that contains space or q.
   void take_pass(std::string_view bytes, double now_s);
   /// Takes bytes that arrived at `now_s`; a sequence may be split between calls.
   void take(std::string_view bytes, double now_s);
@@ -64,8 +64,8 @@ class StickKeys {
 
   std::string pending_;
   std::optional<double> previous_pass_s_;
-  double settled_s_ = -1;  ///< until then keys can be a part of an old backlog
-  bool keys_move_ = true;  ///< false: arrow keys, page keys and r have no effect
+  double backlog_until_s_ = -1;  ///< before this time, keys can belong to an old backlog
+  bool keys_move_ = true;        ///< false: arrow keys, page keys and r have no effect
   std::array<Key, 3> key_{};
   double last_s_ = -1;
   std::optional<InchingStep> step_;

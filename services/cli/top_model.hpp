@@ -31,7 +31,8 @@ class TopModel {
   [[nodiscard]] const observation::FaultTimeline& faults() const { return faults_; }
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
   [[nodiscard]] const std::optional<msg::State>& state() const { return state_; }
-  /// Time since the newest crane/supervisor or crane/state, the older of both; 0 without either.
+  /// Age of the newest crane/supervisor or of the newest crane/state, whichever is older. A topic
+  /// without a sample is not counted; 0 when neither topic has a sample.
   [[nodiscard]] std::int64_t age_ns(std::int64_t now_ns) const;
   /// Largest swings since the start.
   [[nodiscard]] const Swing& radial() const { return radial_; }

@@ -35,7 +35,7 @@ std::string why_silent(bus::Bus& bus, const bus::CdrSubscriber& subscriber, cons
     return name + ": all " + std::to_string(rejected) + " samples had a wrong CRC; check the network";
   if (const auto policy = refused.get(); !policy.empty())
     return name + ": a writer exists, but its quality of service does not match (" + policy +
-           "); check --clock and the releases of both sides";
+           "); check --clock, and that both programs have the same version";
   if (subscriber.matched() == 0) return name + ": no writer found" + where_and_remedy(bus);
   return name + ": " + std::to_string(subscriber.matched()) + " writers, but no sample: " +
          (subscriber.topic().every_tick ? "the clock master starts no ticks (crane status)"

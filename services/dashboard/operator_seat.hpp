@@ -1,6 +1,7 @@
 #pragma once
-/// The controls of the crane (docs/dashboard.md), held by one client at a time. A client that takes the seat
-/// gets a secret key; all other clients may only watch. No I/O; the time is an argument.
+/// The controls of the crane (docs/dashboard.md; in the code: the seat), held by one client at a
+/// time. A client that takes the seat gets a secret key; all other clients may only watch. No I/O;
+/// the time is an argument.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -15,8 +15,8 @@ class RequestQueue {
     if (operates) sender_.emplace(bus);
   }
 
-  /// May be called by any thread. @return false when the queue is full, which at most one request per
-  /// connection prevents
+  /// May be called by any thread. @return false when the queue is full; this cannot happen while
+  /// each connection sends one request at a time
   bool ask(const stack::OperatorRequest& wanted, Answered answered) {
     return queue_.put({wanted, std::move(answered)});
   }

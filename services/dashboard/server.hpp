@@ -83,9 +83,10 @@ class Server {
   void accept();
   void welcome(boost::asio::ip::tcp::socket socket);
   /// Ends a connection (for Kind::viewer: a viewer) of the same side, so that `client` can be admitted.
-  /// Candidates are the connections of clients that hold more than `client`, and the connections of `client`
-  /// that are no viewers. Of the candidates of the client that holds most, ends the oldest, viewers last. A
-  /// program that occupies all connections thus excludes no other client.
+  /// Candidates: the connections of clients with more connections than `client`, and the
+  /// connections of `client` itself that are not viewers. Ends the oldest candidate of the client
+  /// with the most connections; viewers are ended last. A program that occupies all connections
+  /// thus excludes no other client.
   /// @return false when there is no candidate
   bool displace_for(const Client& client, Kind kind);
   void take_samples();

@@ -30,9 +30,9 @@ struct RealtimeRun {
   std::vector<std::string> differences;
 };
 
-/// Warning after the use of a real crane: names each drive that stands at least 1 mm (1 mrad) from `[start]`
-/// although the next program would assume this position. Empty: there is none. Omits axes whose position does
-/// not come from `[start]` (homing, absolute encoders).
+/// Warning after the use of a real crane: names each axis that is at least 1 mm (1 mrad) away from
+/// `[start]`, the position that the next program will assume; empty: no such axis. Omits axes whose
+/// position does not come from `[start]` (homing, absolute encoders).
 /// @param position  last measured position: trolley m, slew rad, cable length m
 [[nodiscard]] std::string difference_from_start(const configuration::Rig& rig,
                                                 const std::array<double, 3>& position);
@@ -43,10 +43,11 @@ struct RealtimeRunOptions {
   std::map<std::string, std::string> vendors;
 };
 
-/// Runs on one crane, one after the other; each starts the processes anew. A starting bridge sets its
-/// incremental encoders to `[start]` of the rig file. A simulated crane starts there. A real crane remains
-/// where the run before has left it: on a real crane, `[start]` of each further run is this position, and a
-/// load must hang at rest between two runs, because the bridge sets the swing to zero.
+/// Successive runs on one crane. Each run starts the processes again, and the bridge then sets its
+/// incremental encoders to `[start]` of the rig file. A simulated crane starts at this position. A
+/// real crane stays where the previous run has left it: its position there replaces `[start]` in
+/// the next run, and the load must hang at rest between two runs, because the bridge sets the swing
+/// to zero.
 class RealtimeRuns {
  public:
   explicit RealtimeRuns(RealtimeRunOptions options);

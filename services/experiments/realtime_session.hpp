@@ -24,9 +24,9 @@ class RealtimeSession {
 
   /// Sends a request and waits for the supervisor's answer. @throws SessionError when refused
   void request(const stack::OperatorRequest& wanted, const std::string& what);
-  /// Repeats a refused request for up to 9 s, because a reset needs causes that have been inactive for a
-  /// second. After end_at_stops(), each try of a reset waits for LOCKED. @throws SessionError after the last
-  /// refusal
+  /// Repeats a refused request for up to 9 s: a reset is refused until one second after the last
+  /// cause. After end_at_stops(), each attempt of a reset first waits for LOCKED. @throws
+  /// SessionError after the last refusal
   void request_with_patience(const stack::OperatorRequest& wanted, const std::string& what);
   /// Leads the crane from LOCKED to HOLD: reset, then arm. @throws SessionError
   void arm();
@@ -37,18 +37,19 @@ class RealtimeSession {
   /// @throws SessionError when the move is refused or does not end within `patience`
   bool move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
                std::chrono::milliseconds patience);
-  /// Waits until the plant has measured the state of `sample_time_ns`. @throws SessionError when this state
-  /// has not arrived `patience` after its time. A state must have arrived before (arm())
+  /// Waits for the state that is measured at `sample_time_ns` or later. @pre a state has arrived
+  /// (arm())
+  /// @throws SessionError when no such state has arrived at `sample_time_ns` + `patience`
   void wait_for_sample(std::int64_t sample_time_ns, std::chrono::nanoseconds patience);
   /// Waits at most `patience` until the load hangs at rest. @return whether it does
   bool wait_for_rest(std::chrono::milliseconds patience);
   /// Waits for `duration`. All samples that have arrived until then are taken.
   void wait(std::chrono::nanoseconds duration);
-  /// From now on, requests and waits throw SessionError when the crane is stopping, in ESTOP or in FAULT,
-  /// when a cause other than a routine one (supervisor::is_routine()) has stopped it, and when any cause
-  /// stops it after it was in HOLD: a program must not reset what it did not stop. They also throw when the
-  /// supervisor has accepted a move of another client after the first HOLD: the session must not replace the
-  /// move of another operator.
+  /// From now on, requests and waits throw SessionError in these cases: the crane is stopping, in
+  /// ESTOP or in FAULT; a cause that is not routine (supervisor::is_routine()) has stopped it; any
+  /// cause stops it after it was in HOLD (a program must not reset a stop that it has not
+  /// requested); after the first HOLD, the supervisor has accepted a move of another client (the
+  /// session must not replace this move).
   void end_at_stops() { ends_at_stops_ = true; }
   /// Disarms the crane and waits at most 2 s until it is LOCKED. Afterwards, stops and moves by
   /// other clients do not end the session. @throws SessionError

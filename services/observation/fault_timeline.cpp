@@ -165,7 +165,7 @@ bool FaultTimeline::merge(Fault& fault, const Note& note) {
 bool FaultTimeline::poll(std::int64_t now_ns, std::int64_t log_now_ns, const Traffic& traffic,
                          const History& history) {
   notice_silence(now_ns, traffic);
-  keep_moments(log_now_ns, history);
+  store_surrounding_samples(log_now_ns, history);
   return std::exchange(changed_, false);
 }
 
@@ -181,7 +181,7 @@ void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) 
   }
 }
 
-void FaultTimeline::keep_moments(std::int64_t log_now_ns, const History& history) {
+void FaultTimeline::store_surrounding_samples(std::int64_t log_now_ns, const History& history) {
   for (auto& fault : faults_) {
     const auto at_ns = fault.notes.front().at_ns;
     if (fault.samples_stored || log_now_ns < at_ns + kAfter_ns || log_now_ns > at_ns + History::kLongest_ns)

@@ -77,7 +77,7 @@ class FaultTimeline {
   void add_state(const Sample& sample, const msg::State& state);
   void add_event(const Sample& sample, const msg::Event& event);
   void notice_silence(std::int64_t now_ns, const Traffic& traffic);
-  void keep_moments(std::int64_t log_now_ns, const History& history);
+  void store_surrounding_samples(std::int64_t log_now_ns, const History& history);
 
   std::deque<Fault> faults_;
   std::optional<crane_Cause> cause_;        ///< of the last status; nothing: no status yet

@@ -17,8 +17,8 @@ struct Sample {
   std::int64_t log_time_ns = 0;      ///< arrival, ns since 1970; a change of the system clock causes no jump
   std::vector<std::uint8_t> cdr;     ///< plain CDR with its 4-byte encapsulation header
 };
-/// Age at which the newest crane/supervisor or crane/state says nothing about the present: both are published
-/// every tick.
+/// A crane/supervisor or crane/state older than this is stale: both topics are published every
+/// tick.
 inline constexpr std::int64_t kStale_ns = 1'000'000'000;
 
 /// Shared by history and clients; never changes after construction.

@@ -1,7 +1,8 @@
 #pragma once
-/// Counts each missing sample of one topic once, although two sources show the loss: a report of DDS, and a
-/// gap in the ticks. The next sample reveals the gap. The report precedes the gap by more than a second when
-/// the recorder paused, and follows the gap by more than a second when the heartbeat of the writer is late.
+/// Counts each missing sample of one topic once, although two sources report the loss: DDS, and the
+/// gap in the ticks of the received samples. The two reports can be more than a second apart, in
+/// either order: after a pause of the recorder DDS reports first; after a late heartbeat of the
+/// writer, the gap is visible first.
 #include <array>
 #include <cstdint>
 #include <vector>

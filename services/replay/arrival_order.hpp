@@ -55,7 +55,7 @@ class ArrivalOrder {
     std::int64_t after_ns, until_ns;
   };
   /// Adds the requests that the supervisor executed in the step between two statuses.
-  /// @param times  of the status before, excluded, and of the status of the step
+  /// @param times  time of the previous status (excluded) and of the status of the step
   void add_requests(std::uint64_t tick, const Between& times, std::vector<Received>& inputs);
   void add_jogs(RecordedTick& tick) const;
 

@@ -22,7 +22,7 @@ class PrescribedStack final : public ReplayedStack {
   void forget_until(std::uint64_t tick) override;
   [[nodiscard]] bool is_prescribed() const override { return true; }
   [[nodiscard]] const std::vector<Received>& repeated() const override { return repeated_; }
-  [[nodiscard]] bool decides_by_outputs() const override { return planners_.size() > 1; }
+  [[nodiscard]] bool infers_inputs_from_outputs() const override { return planners_.size() > 1; }
   [[nodiscard]] std::uint64_t decided_by_outputs() const override { return decided_by_outputs_; }
 
  private:
@@ -43,9 +43,10 @@ class PrescribedStack final : public ReplayedStack {
 
   bool corrects_reference_;                                 ///< the tracking law reads crane/anti_swing
   std::map<crane_Source, PrescribedComponent> components_;  ///< all but the planner
-  /// Copies of the planner in the same state. The first copy steps first. If its reference differs from the
-  /// recorded reference, and the recording does not show whether the planner had the status, the second copy
-  /// steps without the status and replaces the first.
+  /// Copies of the planner in the same state. The first copy steps first. Where the recording does
+  /// not show whether the planner had the status, and the first copy (with the status) publishes
+  /// another reference than the recorded one, the second copy steps without the status and replaces
+  /// the first.
   std::list<PrescribedComponent> planners_;
   std::map<std::string_view, std::map<std::uint64_t, Cdr>> samples_;  ///< by topic and tick
   std::vector<Received> repeated_;

@@ -88,7 +88,7 @@ class Comparison {
   }
 
   void note_irregularity(const RecordedTick& tick) {
-    if (stack_.is_prescribed() && tick.steps.planner_may_lack_status && !stack_.decides_by_outputs())
+    if (stack_.is_prescribed() && tick.steps.planner_may_lack_status && !stack_.infers_inputs_from_outputs())
       doubt_ = Doubt{next_, "the planner may have lacked crane/supervisor"};
     if (tick.irregular.empty()) return;
     ++result_.irregular_ticks;

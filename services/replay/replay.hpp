@@ -1,7 +1,8 @@
 #pragma once
-/// Replays a recording in lockstep: the components of the stack receive the recorded samples of clock master
-/// and operators; every sample that they publish must equal the recorded one bit for bit. Start-up numbers
-/// are not compared in a recording of the recorder, because they are random.
+/// Replays a recording: the components of the stack receive the recorded samples of clock master
+/// and operators, in lockstep, or (recordings of a recorder) with the recorded steps (steps.hpp).
+/// Every sample that they publish must equal the recorded one bit for bit. Start-up numbers are not
+/// compared in a recording of the recorder, because they are random.
 #include <cstdint>
 #include <optional>
 #include <span>

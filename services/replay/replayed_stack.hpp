@@ -25,8 +25,9 @@ class ReplayedStack {
   [[nodiscard]] virtual bool is_prescribed() const { return false; }
   /// Ticks in which the recorded outputs decided whether a component had an input.
   [[nodiscard]] virtual std::uint64_t decided_by_outputs() const { return 0; }
-  /// False: the recorded outputs no longer decide, because too many ticks required such a decision.
-  [[nodiscard]] virtual bool decides_by_outputs() const { return false; }
+  /// True while the recorded outputs can decide: a second copy of the planner is left
+  /// (PrescribedStack).
+  [[nodiscard]] virtual bool infers_inputs_from_outputs() const { return false; }
   /// Second and later samples of this tick, from steps of the supervisor without a state.
   [[nodiscard]] virtual const std::vector<Received>& repeated() const {
     static const std::vector<Received> none;

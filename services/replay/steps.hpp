@@ -14,8 +14,8 @@ namespace crane::replay {
 struct RecordedTick;
 
 struct Steps {
-  /// True: the planner published the reference of this tick from the state of this tick, because it had not
-  /// published it in the tick before.
+  /// True: the planner did not publish the reference of this tick in the previous tick, and
+  /// published it from the state of this tick.
   bool planner_begins = false;
   bool planner = true;             ///< true: the planner published the reference of the next tick
   bool planner_has_status = true;  ///< true: the status of this tick was published before the reference

@@ -51,8 +51,8 @@ struct Review {
   std::vector<std::string> problems;              ///< damage of the file
 
   /// The stop that the review explains, in order of preference: the stop with the trigger; the first fault;
-  /// the first stop by the operator; the first other order; a stop that began before the recording. nullptr:
-  /// no stop.
+  /// the first stop by the operator; the first other intended stop (disarm, idle time, homing); a
+  /// stop that began before the recording. nullptr: no stop.
   [[nodiscard]] const observation::Fault* first_stop() const;
   /// The note that determines first_stop().
   [[nodiscard]] const observation::Note* first_cause() const;

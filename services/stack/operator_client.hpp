@@ -44,10 +44,10 @@ class OperatorClient {
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
   /// Sends an unanswered request again, under a new id. Without keys, a forged packet can make readers skip
-  /// all later samples of a DDS writer. Therefore the repetitions with an odd number go through a spare
-  /// writer. After kUnanswered unanswered repetitions, a new spare writer replaces it. A spare writer whose
-  /// repetition is answered becomes the first writer. With keys, such packets cannot be forged: all
-  /// repetitions use one writer.
+  /// all later samples of a DDS writer. Therefore repetitions with an odd number use a spare
+  /// writer. After kUnanswered unanswered repetitions of this writer, a new spare writer replaces
+  /// it. A spare writer whose repetition is answered becomes the first writer. With keys, such
+  /// packets cannot be forged: all repetitions use one writer.
   /// @param repetition  number of the repetition of this request, from 1
   /// @return id of the repetition
   std::uint64_t repeat(const OperatorRequest& wanted, std::size_t repetition);

@@ -6,9 +6,9 @@
 namespace crane::services {
 
 /// Joins crane/state and crane/supervisor; publishes crane/reference for the following tick, outside the
-/// critical path. In HOLD and RUN the reference executes moves, homing and the stick. In STOP_C1 it
-/// decelerates to rest. In every other state it is the measured position, so that arming causes no step. A
-/// move begins when the supervisor has accepted its request.
+/// critical path. HOLD and RUN: moves, homing and the stick determine the reference. STOP_C1: the
+/// reference decelerates to rest. Every other state: the reference is the measured position, so
+/// that arming causes no step. A move begins when the supervisor has accepted its request.
 [[nodiscard]] runtime::ComponentSpec trajectory_planner_spec();
 
 }  // namespace crane::services

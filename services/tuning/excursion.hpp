@@ -1,6 +1,6 @@
 #pragma once
-/// Predicts the largest excursion of a motion before the crane executes it: simulates axis and load on a grid
-/// of all cranes that are still possible.
+/// Predicts the largest excursion of a motion before the crane executes it: simulates axis and load
+/// on a grid over the ranges of the values that are still possible.
 ///
 /// The load moves relative to the ground at small angles; for slew this contains centrifugal and Coriolis
 /// terms. x is the axis, s(x) the suspension point, p the load, phi the swing along the axis:

@@ -22,16 +22,17 @@ struct Priors {
 };
 
 /// Natural frequency of the position loop during the tuning, rad/s, critically damped. Chosen: with the
-/// largest gain and delay of the priors the phase margin is 43 degrees: the loop crosses 0 dB at 2.06
-/// kLoop_radps, where tracking PD leads by 76 degrees; two periods of delay, one tick, and half a period each
-/// of the hold and of the speed lag by 33 degrees.
+/// largest gain and delay of the priors the phase margin is 43 degrees: at the crossover 2.06
+/// kLoop_radps, tracking PD leads by 76 degrees. Four periods of delay lag by 33 degrees: two of
+/// the priors, one tick of the loop, half a period of the zero-order hold and half a period of the
+/// speed difference.
 inline constexpr double kLoop_radps = 7;
 
 /// The rig file of control loop and bridge during the tuning: tracking PD without swing feedback, with the
-/// largest gains, the lightest load and the largest friction of the priors. The loop is thus never faster
-/// than designed, and never compensates more than the force of the load, which would excite the swing. The
-/// friction is not compensated. Checks that need a known model are off (limits.model_checks); all other
-/// limits are those of the rig file.
+/// largest gains, the lightest load and the largest friction of the priors. The loop is therefore
+/// never faster than designed, and never overcompensates the force of the load: overcompensation
+/// would excite the swing. The friction is not compensated. Checks that need a known model are off
+/// (limits.model_checks); all other limits are those of the rig file.
 [[nodiscard]] configuration::Rig careful_rig(const configuration::Rig& rig, const Priors& priors);
 
 /// Stiffness of the position loop of careful_rig(), V/m or V/rad.

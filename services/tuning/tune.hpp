@@ -7,8 +7,9 @@
 /// Files in the directory:
 ///   motion.csv   all motions one after the other, canonical columns; written after each motion
 ///   tune.json    estimates, ranking, recommendation; with "refused" when the tuning ends early
-///   tuned.toml   the rig file    tune.html   the report; a tuning that ends early leaves those of an earlier
-///                tuning unchanged
+///   tuned.toml   the rig file
+///   tune.html    the report
+/// A tuning that ends early does not change tuned.toml and tune.html of an earlier tuning.
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>

@@ -29,8 +29,8 @@ struct WindowedFit {
   double begin_s = 0;  ///< rows before this time are not used
   /// Returns the crane for values of the parameters.
   std::function<diagnosis::Crane(const std::vector<double>&)> crane;
-  /// Returns the output voltages of the amplifiers for commanded voltages, one entry per row. Empty: both are
-  /// equal.
+  /// Returns the output voltages of the amplifiers for commanded voltages, one entry per row.
+  /// Empty: the output voltages are the commanded voltages.
   std::function<std::vector<plant::PerAxis>(const std::vector<double>&, const std::vector<plant::PerAxis>&)>
       amplifiers{};
 };

@@ -194,7 +194,7 @@ TEST_F(RecordingCommands, FailWhenStandardOutputCannotBeWritten) {
       system_test::run_program("/bin/sh", {"-c", "exec \"$0\" log export csv \"$1\" > /dev/full",
                                            (stack::program_directory() / "crane").string(), run_});
   EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_THAT(failed.errors, HasSubstr("crane: standard output: not everything could be written"));
+  EXPECT_THAT(failed.errors, HasSubstr("crane: standard output is incomplete"));
 }
 
 /// A limit of the size of files acts like a full disk. The library cleans up when the program exits.

@@ -25,14 +25,14 @@ Snapshot heard(const std::vector<std::string>& names) {
 }
 
 TEST(Snapshot, NamesEachProcessOfTheLoopThatHasSentNoStatus) {
-  EXPECT_THAT(unheard(heard({"trajectory_planner", "tracking", "supervisor", "twin"})),
+  EXPECT_THAT(silent_processes(heard({"trajectory_planner", "tracking", "supervisor", "twin"})),
               ElementsAre("plant or hardware_bridge", "anti_swing", "friction_compensation"));
 }
 
 TEST(Snapshot, OfASimulatedAndOfARealCraneIsWhole) {
   for (const std::string plant : {"plant", "hardware_bridge"})
-    EXPECT_THAT(unheard(heard({plant, "trajectory_planner", "tracking", "anti_swing", "friction_compensation",
-                               "supervisor"})),
+    EXPECT_THAT(silent_processes(heard({plant, "trajectory_planner", "tracking", "anti_swing",
+                                        "friction_compensation", "supervisor"})),
                 IsEmpty());
 }
 
@@ -40,7 +40,7 @@ TEST(Snapshot, IsPrintedWithTheUnheardProcesses) {
   const Snapshot partial = heard({"plant", "trajectory_planner", "tracking", "anti_swing", "supervisor"});
   std::ostringstream text;
   print(text, partial);
-  EXPECT_THAT(text.str(), HasSubstr("no status   of friction_compensation: "));
+  EXPECT_THAT(text.str(), HasSubstr("no status   friction_compensation: "));
   EXPECT_EQ(to_json(partial)["unheard"], nlohmann::json({"friction_compensation"}));
 }
 

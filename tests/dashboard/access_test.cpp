@@ -110,7 +110,7 @@ TEST(Access, FromAnotherComputerTheTokenDecides) {
   EXPECT_EQ(why_not_operate(kRules, visitor), "");
 }
 
-TEST(Access, WithoutATokenNobodyOperatesFromAnotherComputerNotEvenWithAnEmptyOne) {
+TEST(Access, WithoutAConfiguredTokenNoRequestOfAnotherComputerOperatesNotEvenWithAnEmptyToken) {
   auto rules = kRules;
   rules.token = "";
   const Visitor visitor{

@@ -97,7 +97,7 @@ class ForeignProgram : public testing::TestWithParam<bus::Vendor> {
   bus::Bus crane_{options(bus::Vendor::cyclone, "crane_plant")};
 };
 
-TEST_P(ForeignProgram, ThatIsAsTheCraneHasNoFinding) {
+TEST_P(ForeignProgram, WithTheSettingsOfTheCraneHasNoFinding) {
   const ForeignEndpoint writer{kState, true}, reader{kState, false};
   const auto states = crane_.publisher(topics::state);
   EXPECT_THAT(found(), testing::IsEmpty());

@@ -39,7 +39,7 @@ class OnTwoHosts : public testing::Test {
   TwoHosts hosts_;
 };
 
-TEST_F(OnTwoHosts, NobodyPublishes) {
+TEST_F(OnTwoHosts, ReportsThatNobodyPublishes) {
   const auto answer = far("--duration 0.5");
   EXPECT_EQ(answer.exit_code, 1);
   EXPECT_THAT(lines(answer),
@@ -47,7 +47,7 @@ TEST_F(OnTwoHosts, NobodyPublishes) {
                                  "127.0.0.1, and no other crane is found: start one with `crane up`")));
 }
 
-TEST_F(OnTwoHosts, AnAddressOfAnotherComputerAndAnInterfaceThatIsDown) {
+TEST_F(OnTwoHosts, ReportsAnAddressOfAnotherComputerAndAnInterfaceThatIsDown) {
   EXPECT_THAT(lines(far("--interface 10.99.0.1")),
               Contains(HasSubstr("interface_unknown: --interface 10.99.0.1 is no "
                                  "address of this computer: choose one of")));

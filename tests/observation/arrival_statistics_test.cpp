@@ -104,7 +104,7 @@ TEST(ArrivalStatistics, GiveNoLossesForTopicsThatAreNotWrittenEveryTick) {
   EXPECT_EQ(statistics.counts().duplicate, 0U);
 }
 
-TEST(ArrivalStatistics, BalanceEveryTickOfARandomStream) {
+TEST(ArrivalStatistics, CountEveryTickOfARandomStreamOnce) {
   constexpr unsigned kSeed = 20240517;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   std::mt19937 random{kSeed};

@@ -76,7 +76,7 @@ TEST_F(TickRowsTest, TopicsThatAreReadOneAfterTheOtherMakeTheSameRows) {
   for (const auto& row : seen_) EXPECT_EQ(row.values[1], -static_cast<double>(row.tick));
 }
 
-TEST_F(TickRowsTest, AnyLeadOfOneTopicWithinTheWaitGivesEveryRowComplete) {
+TEST_F(TickRowsTest, RowsAreCompleteForAnyLeadOfOneTopicWithinTheWait) {
   constexpr unsigned kSeed = 20034;
   constexpr std::uint64_t kTicks = 5000;
   std::mt19937 random{kSeed};

@@ -138,7 +138,7 @@ TEST_F(Keys, ThatEndWithin30DaysAreNamedWithTheirDate) {
   for (const auto& end : all) EXPECT_EQ(end.until_s, now_s + 40 * kDay_s) << end.file;
 }
 
-TEST_F(Keys, OfWhichOneFileEndsFirstNameThisFile) {
+TEST_F(Keys, ReportTheFileThatExpiresFirst) {
   const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
   make(temporary_ / "later", valid_for(300));
   EXPECT_EQ(warning_of_end(temporary_ / "later", now_s), "");

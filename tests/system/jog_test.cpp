@@ -162,7 +162,7 @@ TEST_F(JogKeyboard, ForgetsTheStopPointAfterAMotionOfAnotherClient) {
   ASSERT_TRUE(jog.wait_for("from the stop point", 20s)) << jog.output();
   stack_.session().move_to({true, false, false}, {0.6, 0, 0}, 30s);
   jog.type("r");
-  EXPECT_TRUE(jog.wait_for("return: no stop point", 20s)) << jog.output();
+  EXPECT_TRUE(jog.wait_for("return: there is no stop point", 20s)) << jog.output();
   jog.type("q");
   EXPECT_EQ(jog.wait(10s), 0);
 }

@@ -219,7 +219,7 @@ TEST_P(Play, StopsAtOnceWhenAnotherWriterAppears) {
   }
 }
 
-TEST_P(Play, NoStackStartsBesideIt) {
+TEST_P(Play, PreventsTheStartOfAStack) {
   ProgramRun program{kCrane, arguments({"--loop"})};
   ASSERT_TRUE(program.wait_for_error("playing", 20s)) << program.errors();
   EXPECT_FALSE(program.wait(500ms)) << program.errors();

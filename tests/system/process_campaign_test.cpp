@@ -239,7 +239,7 @@ TEST_F(ProcessCampaign, ALossyLinkHasNoEffectOrStopsTheCrane) {
                           .may_ride_through = true,
                           .detection_ms = 1e6,
                           .loses_commands = true,
-                          .acts_late_ms = kLate_ms};
+                          .bridge_delay_ms = kLate_ms};
     struck.lossy = true;
     ASSERT_NO_FATAL_FAILURE(bring_to(When::moving));
     struck.onset_ns = now_ns();

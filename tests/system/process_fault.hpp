@@ -58,17 +58,17 @@ inline campaign::Expectation expectation_of(const Fault& fault) {
     return {.reasons = {{crane_CAUSE_SECOND_WRITER, crane_LATCH_NONE},
                         {crane_CAUSE_BRIDGE_LATCHED, crane_LATCH_SECOND_WRITER}},
             .detection_ms = std::chrono::duration<double, std::milli>{kFound}.count(),
-            .acts_late_ms = kLate_ms};
+            .bridge_delay_ms = kLate_ms};
   if (std::string_view{fault.component} == "supervisor")
     return {.reasons = {{crane_CAUSE_BRIDGE_LATCHED, crane_LATCH_COMMAND_STALE}},
             .detection_ms = 60 + kLate_ms,
             .communication = true,
             .supervisor_gone = true,
-            .acts_late_ms = kLate_ms};
+            .bridge_delay_ms = kLate_ms};
   return {.reasons = {{crane_CAUSE_DEMAND_STALE, crane_LATCH_NONE}},
           .detection_ms = 50 + kLate_ms,
           .communication = true,
-          .acts_late_ms = kLate_ms};
+          .bridge_delay_ms = kLate_ms};
 }
 
 }  // namespace crane::system_test

@@ -77,15 +77,15 @@ class RecordedRequest : public RecordedRun {
   static constexpr std::int64_t kReady_ns = kReady * kTick_ns + kStep_ns;
 };
 
-TEST_F(RecordedRequest, CountsFromItsWritingOnWhenTheRecorderTakesItLate) {
+TEST_F(RecordedRequest, CountsFromItsSourceTimeWhenItIsRecordedLate) {
   EXPECT_EQ(violations_with_a_reset(kReady_ns + 5 * kTick_ns, kReady_ns - kStep_ns / 2), 0U);
 }
 
-TEST_F(RecordedRequest, ThatWasWrittenLongBeforeItsAllegedEffectIsAViolation) {
+TEST_F(RecordedRequest, WrittenLongBeforeItsReportedEffectIsReported) {
   EXPECT_EQ(violations_with_a_reset(kReady_ns - 101 * kTick_ns, kReady_ns - 101 * kTick_ns), 1U);
 }
 
-TEST_F(RecordedRequest, ThatWasWrittenAfterItsAllegedEffectIsAViolation) {
+TEST_F(RecordedRequest, WrittenAfterItsReportedEffectIsReported) {
   EXPECT_EQ(violations_with_a_reset(kReady_ns + 1, kReady_ns + 1), 1U);
 }
 

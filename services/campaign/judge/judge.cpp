@@ -86,7 +86,7 @@ class Judgement {
     if (wanted.reasons.empty()) {
       violated(Invariant::no_false_trip, first_row_, "the crane stopped although it must continue");
     } else if (std::ranges::find(wanted.reasons, *verdict_.first) == wanted.reasons.end() &&
-               (wanted.position_is_false || !is_true(*verdict_.first, rig_, run_.rows, first_row_))) {
+               (wanted.position_is_wrong || !is_true(*verdict_.first, rig_, run_.rows, first_row_))) {
       violated(Invariant::right_reason, first_row_, "a wrong reason came first");
     } else if (run_.visible_ns && detection_ms > wanted.detection_ms + 1e-6) {
       violated(Invariant::right_reason, first_row_, "detected after " + std::to_string(detection_ms) + " ms");
@@ -180,7 +180,7 @@ class Judgement {
     const auto end_ns = run_.rows.back().time_ns;
     const double reaction_ms =
         (run_.expectation.loses_commands ? kCommunicationBound_ms : kZeroVoltsBound_ms) +
-        run_.expectation.acts_late_ms;
+        run_.expectation.bridge_delay_ms;
     const double bound_ms = controlled ? kControlledStop_ms : reaction_ms;
     if (ms(detected_ns, zero_ns.value_or(end_ns)) > bound_ms + 1e-6)
       violated(Invariant::zero_volts, first_row_, "0 V comes late after the detection");

@@ -57,7 +57,7 @@ struct Expectation {
   /// true: the bridge has ended, and only the relay of the rig acts on the brakes
   bool volts_by_rig = false;
   /// true: wrong counters permit motion beyond a hard limit; I1 reports it only
-  bool position_is_false = false;
+  bool position_is_wrong = false;
   /// true: a command to stop may be lost; the bridge then stops the crane after 50 ms
   bool loses_commands = false;
   bool refused = false;  ///< true: the newest request of the operator must be refused
@@ -66,7 +66,8 @@ struct Expectation {
   bool supervisor_gone = false;  ///< true: no supervisor follows a latch of the bridge
   /// true: the status of the supervisor is wrong; only the bridge is judged
   bool supervisor_faulty = false;
-  double acts_late_ms = 0;  ///< delay of the bridge; added to the permitted times until 0 V and closed brakes
+  /// delay of the bridge; added to the permitted times until 0 V and closed brakes
+  double bridge_delay_ms = 0;
   /// The bridge must latch with this reason, even after a stop by the supervisor; LATCH_NONE: no requirement.
   crane_LatchReason bridge_must_latch = crane_LATCH_NONE;
   /// The supervisor must report this cause, even after a latch of the bridge; CAUSE_NONE: no requirement.
@@ -76,13 +77,13 @@ struct Expectation {
   /// After STOPPING_ENVELOPE no voltage may drive this axis in the direction `outwards`; nothing: no
   /// requirement.
   std::optional<std::size_t> outwards_axis{};
-  double outwards = 1;             ///< 1 or -1
-  bool brakes_are_broken = false;  ///< true: I3 and I4 do not apply, because a brake does not close
+  double outwards = 1;               ///< 1 or -1
+  bool brakes_do_not_close = false;  ///< true: I3 and I4 do not apply, because a brake does not close
 };
 
 struct Run {
   std::vector<Row> rows{};
-  std::int64_t begin_ns = 0;  ///< no request or fault before
+  std::int64_t begin_ns = 0;  ///< time before which there is no request and no fault
   std::int64_t onset_ns = 0;  ///< onset of the fault
   /// Earliest time at which the effect was visible; nothing: never.
   std::optional<std::int64_t> visible_ns{};

@@ -41,7 +41,7 @@ class TickInvariants {
       const double beyond =
           std::max(truth.position[i] - drive.high_limit, drive.low_limit - truth.position[i]);
       verdict_.beyond_limit = std::max(verdict_.beyond_limit, beyond);
-      if (beyond > kOutside && !run_.expectation.position_is_false && !run_.expectation.brakes_are_broken)
+      if (beyond > kOutside && !run_.expectation.position_is_wrong && !run_.expectation.brakes_do_not_close)
         violated(Invariant::inside_limits, k,
                  "axis " + std::to_string(i) + " is " + std::to_string(beyond) +
                      " beyond its hard limit with its brake open");
@@ -81,7 +81,7 @@ class TickInvariants {
       if (truth.brake_closed[i] && !braked_at_[i] && std::abs(truth.speed[i]) <= kAtRest)
         braked_at_[i] = truth.position[i];
       if (braked_at_[i] && std::abs(truth.position[i] - *braked_at_[i]) > kSlip &&
-          !run_.expectation.brakes_are_broken)
+          !run_.expectation.brakes_do_not_close)
         violated(Invariant::braked_stays, k, "axis " + std::to_string(i) + " moved under its closed brake");
     }
   }

@@ -152,8 +152,8 @@ void add_bench_tick(CLI::App& bench, Action& chosen) {
   auto options = std::make_shared<MeasuredStack>();
   auto* command = bench.add_subcommand(
       "tick",
-      "Split the latency from state to command into hops and parts, beside chains of raw UDP, Cyclone DDS "
-      "and Fast DDS in the same run");
+      "Split the latency from state to command into hops and parts, and compare it with chains of raw UDP, "
+      "Cyclone DDS and Fast DDS in the same run");
   add_measured_stack(*command, *options, 3600.0);
   command
       ->add_option("--priority", options->launch.priority,

@@ -130,8 +130,8 @@ int run_free(const CampaignOptions& options) {
             << found.trips.size() << " false trips\n";
   for (const auto& line : found.trips) std::cout << line;
   std::cout << found.limits.size()
-            << " stops that the true state confirms: a move has crossed a limit, or a controller has not "
-               "come to rest\n";
+            << " stops that the true state confirms: a move crossed a limit, or a controller did not bring "
+               "the crane to rest\n";
   for (const auto& line : found.limits) std::cout << line;
   return found.trips.empty() ? 0 : 1;
 }

@@ -93,8 +93,9 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
               << " is part of the best explanation and is not proven as a cause\n";
   const auto& held_out = diagnosis.held_out;
   if (!diagnosis.extension.empty() && diagnosis.verdict != diagnosis::Verdict::unknown)
-    std::cout << (diagnosis.causes.empty() ? "held-out gain by the calibration within the accuracy "
-                                           : "held-out gain ")
+    std::cout << (diagnosis.causes.empty()
+                      ? "held-out gain of the calibration (within the accuracy of the rig file) "
+                      : "held-out gain ")
               << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
               << rounded(held_out.gain_ci95[1]) << "] (95 %)\n";
   if (diagnosis.next_experiment)
@@ -116,8 +117,8 @@ void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
   }
   table.print(std::cout);
   for (const auto& proposal : check.next)
-    std::cout << "record next, for " << proposal.of
-              << (proposal.from.empty() ? "" : " beside " + proposal.from) << ": "
+    std::cout << (proposal.from.empty() ? "record next, to detect " : "record next, to distinguish ")
+              << proposal.of << (proposal.from.empty() ? "" : " from " + proposal.from) << ": "
               << proposal.motion.description << '\n';
   for (const std::string& note : data.notes) std::cout << "note: " << note << '\n';
 }

@@ -150,7 +150,7 @@ int probe(const LookOptions& options) {
                 yes_or_no(one["limit_low"]), yes_or_no(one["limit_high"]), yes_or_no(one["at_mark"])});
   drives.print(std::cout);
   std::cout << "emergency stop pressed: " << yes_or_no(found["estop_pressed"])
-            << ", watchdog relay dropped: " << yes_or_no(found["relay_dropped"]) << '\n';
+            << ", watchdog relay open: " << yes_or_no(found["relay_dropped"]) << '\n';
   return runtime::kExitDone;
 }
 

@@ -142,9 +142,9 @@ constexpr const char* kJogNotes =
     "stick was last released.\n"
     "Steps and returns are moves: the supervisor checks them like `crane move`. During a move, space, q,\n"
     "Ctrl-C and a closed terminal stop the crane, which then locks.\n"
-    "The crane stops when this program ends, sends nothing for 0.1 s, or holds a deflection for a minute\n"
-    "without a break; a deflection acts again after the keys have been released. Exception: if SIGKILL\n"
-    "ends this program during a step or a return, the crane continues to the target of the move.";
+    "The crane stops when this program ends or sends nothing for 0.1 s, and when the stick has been\n"
+    "deflected for a minute without a break. After such a stop, release the keys first. Exception: if\n"
+    "SIGKILL ends this program during a step or a return, the crane continues to the target of the move.";
 
 }  // namespace
 

@@ -76,9 +76,11 @@ void print_remarks(const replay::Result& found) {
   if (found.not_recorded > 0)
     std::cerr << found.not_recorded << " samples are not in the recording and were not compared\n";
   if (found.irregular_ticks > 0)
-    std::cerr << found.irregular_ticks << " ticks with a late process were repeated as recorded; "
-              << found.steps_without_state << " steps of the supervisor without a state; "
-              << found.decided_by_outputs << " ticks in which the recorded outputs decided\n";
+    std::cerr << found.irregular_ticks
+              << " ticks had a late process and were replayed with the recorded inputs; in "
+              << found.steps_without_state << " steps the supervisor had no state; in "
+              << found.decided_by_outputs
+              << " ticks the recorded outputs determined whether a component had an input\n";
   if (found.skipped_ticks > 0) std::cerr << "the bridge skipped " << found.skipped_ticks << " ticks\n";
 }
 
@@ -114,12 +116,12 @@ nlohmann::ordered_json to_json(const replay::SwapResult& found) {
 
 void print(const replay::SwapResult& found) {
   if (!found.first_differs) {
-    std::cout << found.other << " demands the same as " << found.recorded << ", bit for bit, " << found.ticks
-              << " ticks\n";
+    std::cout << found.other << " and " << found.recorded << ": equal demands in all " << found.ticks
+              << " ticks, bit for bit\n";
     return;
   }
-  std::cout << found.other << " instead of " << found.recorded << ", " << found.ticks
-            << " ticks; first other demand in tick " << *found.first_differs << '\n';
+  std::cout << found.other << " instead of " << found.recorded << ": " << found.ticks
+            << " ticks; the demands differ from tick " << *found.first_differs << '\n';
   TextTable table{
       {"axis", "largest difference [V]", "at [s]", "tick", found.recorded + " [V]", found.other + " [V]"}};
   for (std::size_t i = 0; i < plant::kAxes; ++i) {

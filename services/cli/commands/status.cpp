@@ -43,7 +43,8 @@ int status(const StatusOptions& options) {
 
 void add_status(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<StatusOptions>();
-  auto* command = app.add_subcommand("status", "Show processes, safety state with the next step, and axes");
+  auto* command =
+      app.add_subcommand("status", "Show the processes, the safety state with its remedy, and the axes");
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_option("--timeout", options->timeout_s, "longest wait for all processes of the loop in s")
       ->check(positive_number())

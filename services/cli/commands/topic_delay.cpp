@@ -42,7 +42,7 @@ void warn_of_other_clock(const std::vector<double>& delays_us) {
   constexpr double kOldest_us = 60e6;
   const auto median_us = percentile(delays_us, 0.5);
   if (median_us && (*median_us < 0 || *median_us > kOldest_us))
-    std::cerr << "these delays have no meaning: the time stamps are from the clock of another host or from a "
+    std::cerr << "these delays are meaningless: the time stamps are from the clock of another host or from a "
                  "lockstep run\n";
 }
 

@@ -98,16 +98,16 @@ class DashboardKeeper {
   std::int64_t started_ns_ = 0;
 };
 
-/// Follows the positions of a real crane. The next start of a bridge sets the incremental encoders to
-/// `[start]` of the rig file, wherever the axes stand.
+/// Tracks the last measured positions of a real crane. When a bridge starts, it assumes that the
+/// axes are at `[start]` of the rig file.
 class LastPosition {
  public:
   explicit LastPosition(bus::Bus& bus) : states_{bus.subscriber(topics::state)} {}
   void follow() {
     while (const auto state = states_.take()) last_ = *state;
   }
-  /// Prints where the axes stand if the next start would assume other positions, and the brakes that were
-  /// open. Call when the bridge has ended.
+  /// Prints a warning for each axis that is not at `[start]`, and for each brake that was open at
+  /// the last measurement. Call when the bridge has ended.
   void warn(const configuration::Rig& rig) {
     follow();
     if (!last_) return;
@@ -117,7 +117,7 @@ class LastPosition {
     for (std::size_t i = 0; i < plant::kAxes; ++i)
       if (rig.drives[i].present && !last_->brake_closed[i])
         std::cerr << "crane up: the brake of the " << plant::kCoordinates[i].name
-                  << " was open at the last measurement: the axis may stand elsewhere\n";
+                  << " was open at the last measurement: the axis may have moved since\n";
   }
 
  private:
@@ -134,11 +134,12 @@ bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::opt
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
       if (ended->name == "dashboard" && dashboard.start_again()) {
-        std::cerr << "crane up: " << stack::describe(*ended) << "; restarting it\n";
+        std::cerr << "crane up: " << stack::describe(*ended) << "; restarting this process\n";
         continue;
       }
       std::cerr << "crane up: " << stack::describe(*ended)
-                << (without.empty() ? "; stopping the others" : "; the crane continues without " + without)
+                << (without.empty() ? "; stopping the other processes"
+                                    : "; the crane continues without " + without)
                 << '\n';
       if (node)
         node->error("process_ended", stack::describe(*ended),

@@ -152,8 +152,9 @@ int learn(const ZoneOptions& options) {
     zone.size_y_m = std::max(zone.size_y_m, 2 * rig.clearance.load_radius_m);
   constexpr double kSmallest_m = 0.001;
   if (zone.size_x_m < kSmallest_m || zone.size_y_m < kSmallest_m)
-    throw std::runtime_error("the hook has not moved around an area: its positions are " +
-                             fixed(zone.size_x_m, 3) + " x " + fixed(zone.size_y_m, 3) + " m");
+    throw std::runtime_error("the recorded positions of the hook enclose no area (" +
+                             fixed(zone.size_x_m, 3) + " x " + fixed(zone.size_y_m, 3) +
+                             " m): drive the hook around the obstacle");
   if (zone.top_m - zone.bottom_m < kSmallest_m)
     throw std::runtime_error(
         "the height of the hook did not change: state the height of the obstacle with --top (and --bottom)");
