@@ -279,5 +279,11 @@ INSTANTIATE_TEST_SUITE_P(AllKinds, ErrorOfTheSwingSensor,
                                          plant::TermSetting{"swing_moving_average", "", {{"window_s", 0.2}}}),
                          [](const auto& each) { return each.param.name; });
 
+TEST(FrictionStep, KeepsADivergedSimulationDiverged) {
+  const auto friction = [](double v) { return std::tanh(v / 5e-4); };
+  for (const double v : {2.75e131, -1e300, std::numeric_limits<double>::infinity()})
+    EXPECT_GT(std::abs(friction_step(v, 0.0, 1.0, 0.005, friction).speed), 1e6) << v;
+}
+
 }  // namespace
 }  // namespace crane::diagnosis
