@@ -100,8 +100,10 @@ TEST(ComediBoard, RefusesWithOneLineAndTheRemedy) {
   };
   expect("cannot be opened", [](auto& device, auto&) { device.there = false; });
   expect("analog_output_subdevice = 1 is in use", [](auto& device, auto&) { device.locked_by_another = 1; });
-  expect("counter_subdevice = 4 is no subdevice", [](auto&, auto& rig) { rig.wiring.counter_subdevice = 4; });
-  expect("input_subdevice = 60 is no subdevice", [](auto&, auto& rig) { rig.wiring.input_subdevice = 60; });
+  expect("counter_subdevice = 4 does not exist on comedi stand-in",
+         [](auto&, auto& rig) { rig.wiring.counter_subdevice = 4; });
+  expect("input_subdevice = 60 does not exist on comedi stand-in",
+         [](auto&, auto& rig) { rig.wiring.input_subdevice = 60; });
   expect("fewer than 24 bits", [](auto& device, auto&) { device.largest_count = 0xFFFF; });
   expect("no range of +-10 V", [](auto& device, auto&) { device.range_v = 5; });
   expect("does not hold", [](auto& device, auto&) { device.stuck_counter = 3; });
