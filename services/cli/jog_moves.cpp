@@ -41,7 +41,12 @@ bool JogMoves::execute(const char* what, const AxisTargets& targets, double time
     why = stopped();
     return !why.empty();
   };
-  if (follower_.follow_until(answer->id, timeout_s, ended)) return true;
+  try {
+    if (follower_.follow_until(answer->id, timeout_s, ended)) return true;
+  } catch (const TargetNotReached& error) {  // the operator sees the position and decides
+    std::cerr << what << ": " << error.what() << '\n';
+    return true;
+  }
   if (why.empty())
     why = runtime::stop_requested() ? "interrupted" : "the target was not reached before the timeout";
   stop(what, why);

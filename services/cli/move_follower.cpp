@@ -85,15 +85,14 @@ void MoveFollower::require_target() const {
     const auto& axis = plant::kCoordinates[i];
     const auto place = [&axis](double value) { return fields::shortest(value) + " " + axis.unit; };
     const std::string target = place(move_.target[i]);
+    const std::string axis_name = axis.name;
     if (std::abs(reference_->axis[i].position - move_.target[i]) > kSameReference)
-      throw std::runtime_error(std::string{"move: ended before the target: the reference of the "} +
-                               axis.name + " axis is " + place(reference_->axis[i].position) +
-                               " instead of " + target);
+      throw TargetNotReached("move: ended before the target: the reference of the " + axis_name +
+                             " axis is " + place(reference_->axis[i].position) + " instead of " + target);
     if (state_ && std::abs(measured[i] - move_.target[i]) > kAtTarget)
-      throw std::runtime_error(std::string{"move: the "} + axis.name + " axis rests at " +
-                               place(std::round(1e3 * measured[i]) / 1e3) + " instead of " + target +
-                               ": the drive does not overcome the friction; check the rail and "
-                               "[controller.friction] of the rig file");
+      throw TargetNotReached("move: the " + axis_name + " axis is at " +
+                             place(std::round(1e3 * measured[i]) / 1e3) + " instead of " + target +
+                             "; the reason may be friction, wind or the offset of a swing sensor");
   }
 }
 

@@ -2,6 +2,7 @@
 /// Waits for the end of a requested move.
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "cli/tool_bus.hpp"
@@ -12,6 +13,12 @@ namespace crane::cli {
 /// @param present the present move: a later one, or one of a restarted supervisor, which counts from 1
 [[nodiscard]] std::string reason_of_replacement(std::uint64_t number, const msg::AcceptedMove& present);
 
+/// The move has ended, but an axis is away from its target. The crane is in HOLD.
+class TargetNotReached : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Must be created before the request is sent, so that a short move is not missed.
 class MoveFollower {
  public:
@@ -21,8 +28,8 @@ class MoveFollower {
   /// @param id         id of the accepted request
   /// @param timeout_s  longest wait
   /// @throws std::runtime_error with the reason: the crane stopped, another move replaced this one, the
-  ///   planner did not execute the move or ended it before the target, an axis rests away from the target, or
-  ///   timeout
+  ///   planner did not execute the move, or timeout
+  /// @throws TargetNotReached
   void follow(std::uint64_t id, double timeout_s);
   /// Waits like follow(), until `stopped` returns true at the latest.
   /// @return true at the end of the move; false after a stop signal, at the timeout, or when `stopped`
@@ -34,8 +41,7 @@ class MoveFollower {
   /// @return true when the supervisor has been in HOLD for enough ticks. @throws std::runtime_error
   bool over(std::uint64_t id);
 
-  /// @throws std::runtime_error if the last reference is not the target of the move, or an axis rests away
-  ///   from it
+  /// @throws TargetNotReached
   void require_target() const;
 
   bus::Bus& bus_;

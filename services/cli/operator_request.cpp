@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <vector>
 
@@ -43,12 +44,7 @@ class Conversation {
   }
 
   void find_listeners(double timeout_s) {
-    for (double left_s = timeout_s; left_s > 0; left_s -= kReportEvery_s) {
-      if (wait_until(bus_, std::min(left_s, kReportEvery_s), [this] { return found(); })) return;
-      if (runtime::stop_requested()) break;
-      if (runtime::stops_crane(wanted_.kind) && left_s > kReportEvery_s)
-        std::cerr << "still searching for the supervisor" << without_bus(wanted_.kind) << '\n';
-    }
+    if (wait_and_report(timeout_s, [this] { return found(); })) return;
     if (heard_supervisor_ && heard_planner() && probe_at_ns_ > 0)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
                      " s: check that its ticks advance (crane status)" + without_bus(wanted_.kind));
@@ -60,7 +56,7 @@ class Conversation {
     constexpr std::int64_t kRepeat_ns = 100'000'000;
     std::int64_t repeat_at_ns = 0;
     std::optional<Answer> answer;
-    wait_until(bus_, timeout_s, [&] {
+    wait_and_report(timeout_s, [&] {
       const auto now_ns = runtime::monotonic_ns();
       if (sent_.empty() || (runtime::is_urgent_stop(wanted_.kind) && now_ns >= repeat_at_ns)) {
         hear_supervisor();
@@ -70,6 +66,8 @@ class Conversation {
       answer = take_answer();
       return answer.has_value();
     });
+    if (!answer && !heard_supervisor_)
+      throw NoAnswer("no supervisor" + where_and_remedy(bus_) + without_bus(wanted_.kind));
     if (!answer)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
                      " s: check that its ticks advance (crane status)" + without_bus(wanted_.kind));
@@ -77,6 +75,15 @@ class Conversation {
   }
 
  private:
+  /// Like wait_until(). For a request that stops the crane, reports every 3 s that no answer has arrived.
+  bool wait_and_report(double timeout_s, const std::function<bool()>& poll) {
+    for (double left_s = timeout_s; left_s > 0 && !runtime::stop_requested(); left_s -= kReportEvery_s) {
+      if (wait_until(bus_, std::min(left_s, kReportEvery_s), poll)) return true;
+      if (runtime::stops_crane(wanted_.kind) && left_s > kReportEvery_s)
+        std::cerr << "no answer of the supervisor yet" << without_bus(wanted_.kind) << '\n';
+    }
+    return false;
+  }
   void hear_supervisor() {
     while (const auto status = supervisor_.take()) {
       heard_supervisor_ = true;

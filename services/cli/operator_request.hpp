@@ -35,8 +35,8 @@ struct Patience {
 };
 
 /// With keys, each participant of the crane first checks the keys of this program, and the check takes longer
-/// with every observer and on a busy computer. A request that stops the crane is not given up earlier.
-inline constexpr Patience kStopWithKeys{.find_s = 60, .reply_s = 10};
+/// with every observer and on a busy computer.
+inline constexpr Patience kStopWithKeys{.find_s = 30, .reply_s = 30};
 
 /// Patience for a request of this kind. @param keys  true: the crane uses DDS Security
 [[nodiscard]] Patience patience_for(crane_RequestKind kind, bool keys);
@@ -44,11 +44,11 @@ inline constexpr Patience kStopWithKeys{.find_s = 60, .reply_s = 10};
 /// Sends the request and waits for the answer. A stop or emergency stop is sent as soon as crane/request has
 /// a reader, and is repeated every 100 ms until the answer. Any other request is
 /// sent once, after the supervisor has answered a probe; a move or a session of the stick also waits for a
-/// sample of crane/reference.
+/// sample of crane/reference. A request that stops the crane prints every 3 s on standard error that no
+/// answer has arrived, and how to stop the crane without the bus.
 /// @param wanted  without `newest_status`, the request names the newest status that this program receives;
 ///   with it, the supervisor refuses the request if the crane has stopped since this status
 /// @throws NoAnswer
-/// A request that stops the crane prints on standard error every 3 s that it still searches.
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience);
 /// The same with patience_for().
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted);

@@ -22,7 +22,8 @@ struct ProfileLimits {
 /// designed, and a jib does not turn while the trolley is near its high limit. Otherwise every axis follows a
 /// profile. A jib that turns with the angular speed w swings the load outwards by w^2 x / g; the laws move
 /// the trolley outwards to reduce this swing. The profile of the slew axis is therefore slower for these
-/// laws, and near the high limit of the trolley for all laws.
+/// laws, and near the high limit of the trolley for all laws. The lengths are those of a laboratory's crane
+/// with a jib of 1 to 3 m. Routes around zones, time-optimal plans and the stick have limits of their own.
 /// @param now  reference at the start of the move
 [[nodiscard]] ProfileLimits profile_limits(const configuration::Rig& rig, control::ReferenceShape shape,
                                            const control::Reference& now, const MoveTarget& move) noexcept;

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "crane/configuration/path_space.hpp"
+#include "crane/control/controlled_stop.hpp"
 #include "crane/control/reference_start.hpp"
 #include "crane/runtime/convert.hpp"
+#include "trajectory_planner/accepted_move.hpp"
 #include "trajectory_planner/motion.hpp"
 #include "trajectory_planner/plan_worker.hpp"
 
@@ -25,37 +27,18 @@ bool follows_reference(crane_SupervisorState state) {
   return state == crane_STATE_HOLD || state == crane_STATE_RUN || state == crane_STATE_STOP_C1;
 }
 
-MoveTarget target_of(const msg::AcceptedMove& request) {
-  MoveTarget move;
-  for (std::size_t i = 0; i < control::kAxes; ++i) {
-    move.selected[i] = request.selected[i];
-    move.target[i] = request.target[i];
-  }
-  return move;
-}
-
-/// @pre exactly one axis is selected; the supervisor checks this
-control::Excitation excitation_of(const msg::AcceptedMove& request) {
-  control::Excitation excitation;
-  while (excitation.axis + 1 < control::kAxes && !request.selected[excitation.axis]) ++excitation.axis;
-  excitation.mean_position = request.target[excitation.axis];
-  for (std::size_t i = 0; i < excitation.sines.size(); ++i)
-    excitation.sines[i] = {request.sine[i].amplitude, request.sine[i].frequency_hz,
-                           request.sine[i].phase_rad};
-  excitation.duration_s = request.duration_s;
-  return excitation;
-}
-
 class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::SupervisorStatus> {
  public:
   explicit TrajectoryPlanner(const Context& context)
       : JoinedComponent{context, kWaitShare, topics::state, topics::supervisor},
         output_{context.ports.output(topics::reference)},
         stale_after_ticks_{context.rig.ticks_in(context.rig.limits.stale_after_s)},
+        longest_stop_ticks_{context.rig.ticks_in(control::kControlledStop_s)},
         planning_ticks_{static_cast<std::uint64_t>(
             std::lround(context.rig.planning.planning_time_s / context.rig.period_s))},
         period_s_{context.rig.period_s},
         steps_{context.controller.reference == control::ReferenceShape::step},
+        rig_{context.rig},
         path_space_{configuration::path_space_of(context.rig)},
         motion_{context.rig, context.controller.reference} {
     for (std::size_t i = 0; i < control::kAxes; ++i)
@@ -86,7 +69,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       supervisor_epoch_ = status->header.epoch;
       leave_obsolete_moves(status->move);
     }
-    if (missing_statuses_ == stale_after_ticks_) lose_supervisor();
+    if (missing_statuses_ == (stopping_ ? longest_stop_ticks_ : stale_after_ticks_)) lose_supervisor();
     withheld_ = withheld_ && (status == nullptr || follows_reference(status->state));
     if (withheld_) return;
     const auto measured = runtime::measurement(*state);
@@ -116,16 +99,18 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
 
  private:
   /// Without the supervisor, the planner knows neither the accepted move nor a stop. It then withholds the
-  /// reference of an armed crane, so that the supervisor stops the crane (DEMAND_STALE), until a status shows
-  /// that the crane has stopped.
+  /// reference: the supervisor stops an armed crane (DEMAND_STALE) and does not arm a stopped one. The
+  /// reference returns with a status that shows a stopped crane. In a controlled stop, the planner needs no
+  /// status: it continues the reference of the stop.
   void lose_supervisor() {
-    withheld_ = follows_reference(supervisor_);
-    if (withheld_)
+    withheld_ = true;
+    if (follows_reference(supervisor_))
       node().warning("supervisor_lost",
                      "no status of the supervisor arrives: the reference ends, and the crane stops",
                      "check the connection between the trajectory planner and the supervisor "
                      "(`crane doctor --net`)");
     supervisor_ = crane_STATE_BOOT;
+    stopping_ = false;
     known_moves_.reset();
   }
 
@@ -147,9 +132,15 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     if (!known_moves_ || move.number <= *known_moves_) return;
     known_moves_ = move.number;
     drop_waiting_moves();
+    if (move.kind == crane_REQUEST_MOVE && !is_inside_limits(rig_, move)) {
+      node().error("move_invalid", "the accepted move has a target outside the limits, and is not executed",
+                   "another program may have changed the status of the supervisor");
+      return;
+    }
     if (move.kind == crane_REQUEST_MOVE && !path_space_.zones.empty())
       return wait_for_rest(move, measured, tick);
     move_number_ = move.number;
+    move_kind_ = move.kind;
     if (move.kind == crane_REQUEST_JOG)
       motion_.jog(target_of(move).selected, tick);
     else if (move.kind == crane_REQUEST_FOLLOW)
@@ -194,7 +185,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       path = {.outcome = control::PathOutcome::by_waypoints, .points = {{.position = target}}};
     const bool has_path =
         path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::by_waypoints;
-    if (has_path) move_number_ = number;
+    if (has_path) move_number_ = number, move_kind_ = crane_REQUEST_MOVE;
     if (path.outcome == control::PathOutcome::straight)
       start_straight(move, tick);
     else if (path.outcome == control::PathOutcome::by_waypoints)
@@ -245,16 +236,18 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     sample.second_writer = disputed();
     sample.configuration = configuration();
     sample.moving = pending_ || waiting_ || !motion_.arrived(measured, tick);
-    if (moving_ && !sample.moving && follows_reference(supervisor_) && !motion_.is_near(measured, tick))
-      node().warning("target_not_reached", "the crane rests away from the target of the move",
-                     "check the rail, and the friction of the drives in the rig file");
+    if (moving_ && !sample.moving && move_kind_ == crane_REQUEST_MOVE && follows_reference(supervisor_) &&
+        !motion_.is_near(measured, tick))
+      node().warning("target_not_reached", "the move has ended, but an axis is away from its target",
+                     "the reason may be friction, wind or the offset of a swing sensor; `crane status` shows "
+                     "the positions");
     moving_ = sample.moving;
     output_.publish(sample);
     published_ = tick;
   }
 
   runtime::Output<msg::Reference> output_;
-  int stale_after_ticks_;
+  int stale_after_ticks_, longest_stop_ticks_;
   /// A move that waits for its plan.
   struct Pending {
     MoveTarget target;
@@ -275,6 +268,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   double period_s_;
   bool steps_;                  ///< true: the controller uses step references
   plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
+  const configuration::Rig& rig_;
   control::PathSpace path_space_;
   Motion motion_;
   control::ReferenceStart start_;
@@ -284,8 +278,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::array<double, control::kAxes> homing_speed_{}, deflection_{};
   bool homing_ = false;
   int missing_statuses_ = 0;
-  bool withheld_ = false;  ///< true: no reference is published
-  bool moving_ = false;    ///< Reference.moving of the last reference
+  bool withheld_ = false;                             ///< true: no reference is published
+  bool moving_ = false;                               ///< Reference.moving of the last reference
+  crane_RequestKind move_kind_ = crane_REQUEST_MOVE;  ///< of the move that is executed
   bool stopping_ = false;
   std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
   std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or obsolete

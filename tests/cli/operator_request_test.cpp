@@ -169,7 +169,7 @@ TEST_F(OperatorTool, MoveOfAnAxisThatRestsAwayFromItsTargetFails) {
   ASSERT_TRUE(states.publish(state));
   const auto id = ask(tool_, kMove, kPatience).id;
   EXPECT_THAT([&] { follower.follow(id, 10); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr("rests at 0.7 m instead of 1 m")));
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("is at 0.7 m instead of 1 m")));
 }
 
 TEST(MoveFollowing, DistinguishesALaterMoveFromARestartedSupervisor) {
@@ -182,7 +182,7 @@ TEST(MoveFollowing, DistinguishesALaterMoveFromARestartedSupervisor) {
 
 TEST(Patience, OfARequestThatStopsIsLongerWithKeys) {
   for (const auto kind : {crane_REQUEST_STOP, crane_REQUEST_ESTOP, crane_REQUEST_DISARM})
-    EXPECT_EQ(patience_for(kind, true).find_s, 60);
+    EXPECT_EQ(patience_for(kind, true).find_s, 30);
   EXPECT_EQ(patience_for(crane_REQUEST_MOVE, true).find_s, Patience{}.find_s);
   EXPECT_EQ(patience_for(crane_REQUEST_ESTOP, false).find_s, Patience{}.find_s);
 }

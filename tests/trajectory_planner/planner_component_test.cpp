@@ -1,6 +1,8 @@
 /// The planner component executes the accepted move and nothing else.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "../runtime/component_bench.hpp"
 #include "trajectory_planner/trajectory_planner.hpp"
 
@@ -174,26 +176,36 @@ TEST_F(PlannerInRealTime, DoesNotExecuteAMoveThatItReceivesAfterALongGapOfTheSta
 }
 
 /// Without a reference there is no demand, and the supervisor stops the crane. A reference that followed the
-/// measured position would end the move as if its target were reached.
-TEST_F(PlannerInRealTime, WithholdsTheReferenceOfAnArmedCraneWithoutSupervisorUntilTheCraneHasStopped) {
-  for (const auto armed : {crane_STATE_HOLD, crane_STATE_RUN, crane_STATE_STOP_C1}) {
+/// measured position would end the move as if its target were reached, and would hold no armed crane.
+TEST_F(PlannerInRealTime, WithholdsTheReferenceWithoutSupervisorUntilTheCraneHasStopped) {
+  for (const auto armed : {crane_STATE_LOCKED, crane_STATE_ARMING, crane_STATE_HOLD, crane_STATE_RUN}) {
     state_ = armed;
     (void)tick();
     lose_the_supervisor();
     EXPECT_FALSE(tick_without_status()) << "state " << armed;
+    state_ = crane_STATE_HOLD;
     EXPECT_THROW((void)tick(), std::runtime_error) << "state " << armed;
     state_ = crane_STATE_LOCKED;
     EXPECT_EQ(tick().axis[0].position, 0.5) << "state " << armed;
   }
 }
 
-TEST_F(PlannerInRealTime, PublishesThePositionOfALockedCraneWithoutSupervisor) {
-  state_ = crane_STATE_LOCKED;
+TEST_F(PlannerInRealTime, ContinuesAControlledStopWithoutSupervisor) {
+  state_ = crane_STATE_STOP_C1;
   (void)tick();
   lose_the_supervisor();
   const auto reference = tick_without_status();
   ASSERT_TRUE(reference);
-  EXPECT_EQ(reference->axis[0].position, 0.5);
+  EXPECT_NEAR(reference->axis[0].position, 0.5, 1e-9) << "the crane of this test stands still";
+}
+
+TEST_F(PlannerComponent, DoesNotExecuteAMoveWhoseTargetIsOutsideTheLimits) {
+  (void)tick();
+  std::uint64_t number = 0;
+  for (const double target : {std::nan(""), 1e300, -5.0}) {
+    accept(++number, target);
+    EXPECT_EQ(tick().axis[0].position, 0.5) << target;
+  }
 }
 
 }  // namespace

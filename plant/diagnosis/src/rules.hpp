@@ -111,7 +111,7 @@ inline constexpr Rule kCredibleForce{
 inline constexpr Rule kCredibleDrive{
     "credible_drive", 0.005, "1",
     "maximum rms of the disturbance of a drive / its acceleration at the largest voltage",
-    "a tenth of the friction of a laboratory's axis, 0.5 V of 10 V: cables, rails and bearings"};
+    "read off examples"};
 inline constexpr Rule kPattern{"pattern", 0.008, "1", "minimum share of a pattern in the loss of the drives",
                                "read off examples"};
 inline constexpr Rule kPatternLuck{

@@ -54,6 +54,22 @@ TEST(MissingForce, IsZeroForASimulationThatEqualsTheMeasurement) {
   EXPECT_EQ(share_not_followed(problem, fits, 0, 0), 0);
 }
 
+TEST(MissingForce, MeasuresTheNoiseOfASensorAndNotTheMotion) {
+  const auto noise_of = [](double noise_rad) {
+    auto table =
+        strange::recorded(strange::moved({}, 60, [](double t) { return 0.3 * std::sin(2 * t); }), {});
+    std::mt19937_64 random(2);
+    std::normal_distribution<double> normal(0, noise_rad);
+    for (auto& column : table.columns)
+      if (column.name == "swing_radial_rad")
+        for (double& value : column.values) value += noise_rad > 0 ? normal(random) : 0;
+    const Runs runs{prepare(load_run(table, pendulum_rig(), "swing.csv").runs.at(0), pendulum_rig())};
+    return measured_noise(Problem(runs, Part::load, 2, 2.5), 0);
+  };
+  EXPECT_LT(noise_of(0), 1e-3);
+  EXPECT_NEAR(noise_of(0.02), 0.02, 2e-3);
+}
+
 /// A coarse sensor: its noise alone would count as a force of 8 % of the weight.
 TEST(MissingForce, IsNotTheNoiseOfTheSensor) {
   constexpr double kNoise_rad = 0.02, kSmall = 0.02;

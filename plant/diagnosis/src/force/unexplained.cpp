@@ -159,10 +159,12 @@ double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
   return gain_of_folds(gains);
 }
 
-/// Cross-validated gain; of a pattern over time, beyond that of a constant.
+/// Cross-validated gain; of a pattern over time or over the position of the other axis, beyond that of a
+/// constant.
 double pattern_gain_of(const Pieces& pieces, const Variable& variable) {
   const double gain = cross_validated_gain(normal_equations_of(pieces, variable));
-  if (variable.with != GoesWith::time || gain <= 0) return gain;
+  const bool beyond_a_constant = variable.with == GoesWith::time || variable.with == GoesWith::other_position;
+  if (!beyond_a_constant || gain <= 0) return gain;
   Variable constant = variable;
   constant.bins = 1;
   return gain - std::max(0.0, cross_validated_gain(normal_equations_of(pieces, constant)));
@@ -177,6 +179,12 @@ std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
   const double loss = pieces.loss();
   std::vector<double> gains(variables.size());
   parallel_for(variables.size(), [&](std::size_t v) { gains[v] = pattern_gain_of(pieces, variables[v]); });
+  // Axes that move together have correlated positions: a pattern over the own position explains its part.
+  double by_own_position = 0;
+  for (std::size_t v = 0; v < variables.size(); ++v)
+    if (variables[v].with == GoesWith::position) by_own_position = std::max(by_own_position, gains[v]);
+  for (std::size_t v = 0; v < variables.size(); ++v)
+    if (variables[v].with == GoesWith::other_position) gains[v] -= by_own_position;
   for (std::size_t v = 0; v < variables.size(); ++v)
     if (gains[v] > 0)
       found.push_back({variables[v].name, variables[v].with, pieces.output, gains[v], gains[v] / loss,

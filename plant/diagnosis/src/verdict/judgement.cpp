@@ -142,7 +142,8 @@ class Judgement {
     const Fits fits = plain.fit(replays_of(plain.runs(), data_.with(best_.effects)));
     const std::vector<Output>& outputs = plain.outputs();
     for (std::size_t output = 0; output < outputs.size(); ++output) {
-      const double noise = data_.load().disturbances()[output].noise;
+      // The learnt noise alone may contain an error of the model that changes quickly.
+      const double noise = std::min(data_.load().disturbances()[output].noise, measured_noise(plain, output));
       if (share_not_followed(plain, fits, output, noise) <= rules::kNotFollowed) continue;
       const double force = missing_force(plain, fits, output, data_.study().natural_radps(), noise);
       if (force > rules::kCredibleForce)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "rules.hpp"
 #include "study/study.hpp"
@@ -25,6 +26,26 @@ double rms_motion(const Problem& problem, std::size_t output) {
     count += static_cast<double>(measured.size());
   }
   return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+double measured_noise(const Problem& problem, std::size_t output) {
+  constexpr double kMedianOfNormal = 0.6745, kSquaredWeights = 20;  // 1 + 9 + 9 + 1
+  std::vector<double> differences;
+  for (const Window& window : problem.windows()) {
+    const Run& run = problem.runs()[window.run].run;
+    const std::vector<double>& measured = run.measured[problem.outputs()[output]];
+    for (std::size_t k = window.first + 3; k < window.first + window.rows; ++k) {
+      bool all = true;
+      for (std::size_t i = 0; i <= 3; ++i) all = all && run.is_measured(problem.outputs()[output], k - i);
+      if (all)
+        differences.push_back(
+            std::abs(measured[k] - 3 * measured[k - 1] + 3 * measured[k - 2] - measured[k - 3]));
+    }
+  }
+  if (differences.empty()) return 0;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle / (kMedianOfNormal * std::sqrt(kSquaredWeights));
 }
 
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output, double noise) {
