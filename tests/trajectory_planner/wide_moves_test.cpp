@@ -63,8 +63,7 @@ TEST_P(EveryController, TurnsAtTheEndOfTheJib) {
 std::vector<std::string> settling_controllers() {
   std::vector<std::string> names;
   for (const control::Controller& controller : control::controllers())
-    if (const std::string name{controller.name}; name != "none" && name != "delayed_2")
-      names.push_back(name);
+    if (const std::string name{controller.name}; name != "none" && name != "delayed_2") names.push_back(name);
   return names;
 }
 
