@@ -61,6 +61,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::SupervisorStatus* status) override {
     missing_statuses_ = status == nullptr ? missing_statuses_ + 1 : 0;
     if (status != nullptr) {
+      heard_supervisor_ = true;
       supervisor_ = status->state;
       mode_ = status->mode;
       homing_ = status->homing[0] || status->homing[1] || status->homing[2];
@@ -101,9 +102,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   /// Without the supervisor, the planner knows neither the accepted move nor a stop. It then withholds the
   /// reference: the supervisor stops an armed crane (DEMAND_STALE) and does not arm a stopped one. The
   /// reference returns with a status that shows a stopped crane. In a controlled stop, the planner needs no
-  /// status: it continues the reference of the stop.
+  /// status: it continues the reference of the stop. A planner that has heard no supervisor yet follows the
+  /// crane.
   void lose_supervisor() {
-    withheld_ = true;
+    withheld_ = heard_supervisor_;
     if (follows_reference(supervisor_))
       node().warning("supervisor_lost",
                      "no status of the supervisor arrives: the reference ends, and the crane stops",
@@ -281,7 +283,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   bool withheld_ = false;                             ///< true: no reference is published
   bool moving_ = false;                               ///< Reference.moving of the last reference
   crane_RequestKind move_kind_ = crane_REQUEST_MOVE;  ///< of the move that is executed
-  bool stopping_ = false;
+  bool stopping_ = false, heard_supervisor_ = false;
   std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
   std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or obsolete
   std::uint64_t move_number_ = 0;             ///< number of the move that the reference executes

@@ -190,6 +190,13 @@ TEST_F(PlannerInRealTime, WithholdsTheReferenceWithoutSupervisorUntilTheCraneHas
   }
 }
 
+TEST_F(PlannerInRealTime, PublishesThePositionOfTheCraneBeforeItHearsASupervisor) {
+  lose_the_supervisor();
+  const auto reference = tick_without_status();
+  ASSERT_TRUE(reference);
+  EXPECT_EQ(reference->axis[0].position, 0.5);
+}
+
 TEST_F(PlannerInRealTime, ContinuesAControlledStopWithoutSupervisor) {
   state_ = crane_STATE_STOP_C1;
   (void)tick();
