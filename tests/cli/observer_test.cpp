@@ -9,6 +9,7 @@
 #include "cli/snapshot.hpp"
 #include "crane/recording/loss.hpp"
 #include "crane/runtime/process.hpp"
+#include "memory_bus.hpp"
 #include "recorder/recorder.hpp"
 #include "temporary_directory.hpp"
 
@@ -18,20 +19,11 @@ namespace {
 using recording::TemporaryDirectory;
 using testing::HasSubstr;
 
-bus::Options on(const std::shared_ptr<bus::MemoryNetwork>& network, crane_Source source) {
-  bus::Options options;
-  options.vendor = bus::Vendor::memory;
-  options.network = network;
-  options.source = source;
-  options.epoch = 1;
-  return options;
-}
-
 class Observers : public testing::Test {
  protected:
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
-  bus::Bus crane_{on(network_, crane_SOURCE_SUPERVISOR)};
-  bus::Bus tool_{on(network_, crane_SOURCE_RECORDER)};
+  bus::Bus crane_ = bus_on(network_, crane_SOURCE_SUPERVISOR);
+  bus::Bus tool_ = bus_on(network_, crane_SOURCE_RECORDER);
 };
 
 TEST_F(Observers, RecorderWritesWhatWasPublishedWithTheTickAsSequence) {
@@ -68,7 +60,7 @@ TEST_F(Observers, RecorderWritesWhatWasPublishedWithTheTickAsSequence) {
 TEST_F(Observers, RecorderStatesHowManyTicksOfAWriterHaveNoSample) {
   const TemporaryDirectory directory;
   const auto file = directory / "run.mcap";
-  auto options = on(network_, crane_SOURCE_SUPERVISOR);
+  auto options = options_on(network_, crane_SOURCE_SUPERVISOR);
   options.epoch = 2;
   bus::Bus restarted{options};
   auto demands = crane_.publisher(topics::demand), later = restarted.publisher(topics::demand);

@@ -8,20 +8,12 @@
 #include "cli/move_follower.hpp"
 #include "cli/operator_request.hpp"
 #include "cli/stick_session.hpp"
+#include "memory_bus.hpp"
 
 namespace crane::cli {
 namespace {
 
 using testing::HasSubstr;
-
-bus::Bus bus_on(const std::shared_ptr<bus::MemoryNetwork>& network, crane_Source source) {
-  bus::Options options;
-  options.vendor = bus::Vendor::memory;
-  options.network = network;
-  options.source = source;
-  options.epoch = 1;
-  return bus::Bus{options};
-}
 
 class OperatorTool : public testing::Test {
  protected:
