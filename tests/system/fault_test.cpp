@@ -55,12 +55,12 @@ std::size_t quiet_from(const std::vector<T>& samples, bool (*quiet)(const T&)) {
 
 class FaultTest : public testing::Test {
  protected:
-  /// A move of trolley and jib, by at least 0.3 m and by 1.5 rad; returns while both move.
+  /// A move of the trolley by 0.5 m and of the jib by 1.5 rad; returns while both move.
   void get_going() {
     if (stack_.session().status()->state != crane_STATE_HOLD) stack_.session().arm();
     const auto start = stack_.session().state().value();
     // Steps of the reference (profile_limits.hpp), so that both axes become fast.
-    trolley_m_ = start.trolley_position_m > 0.55 ? 0.25 : 0.85;
+    trolley_m_ = start.trolley_position_m + (start.trolley_position_m > 0.75 ? -0.5 : 0.5);
     slew_rad_ = start.slew_angle_rad + (start.slew_angle_rad > 0.2 ? -1.5 : 1.5);
     stack_.session().request(
         {.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {trolley_m_, slew_rad_, 0}},
@@ -71,8 +71,17 @@ class FaultTest : public testing::Test {
           const auto& state = stack_.observer().states().back();
           return std::abs(state.trolley_speed_mps) > 0.15 && std::abs(state.slew_speed_radps) > 0.4;
         },
-        5s));
+        5s))
+        << "from " << start.trolley_position_m << " m and " << start.slew_angle_rad << " rad to "
+        << trolley_m_ << " m and " << slew_rad_ << " rad the axes reached " << fastest(0) << " m/s and "
+        << fastest(1) << " rad/s; supervisor " << supervisor_in_words();
     stack_.forget();
+  }
+  [[nodiscard]] double fastest(int axis) const {
+    double speed = 0;
+    for (const auto& state : observer().states())
+      speed = std::max(speed, std::abs(axis == 0 ? state.trolley_speed_mps : state.slew_speed_radps));
+    return speed;
   }
   [[nodiscard]] const Observer& observer() const { return stack_.observer(); }
   [[nodiscard]] std::size_t rest_begins() const { return quiet_from(observer().states(), is_at_rest); }
