@@ -94,15 +94,20 @@ PerAxis Model::free_drives_friction_v(const State& state, const Actuation& actua
 }
 
 double Model::friction_v(const State& state, double drive_v, Axis axis) const noexcept {
-  PerAxis sum{};
-  for (const auto& term : drive_terms_[axis]) term->add_friction(state, sum);
+  const DriveMotion drive(position(state, axis), speed(state, axis));
+  double sum_v = 0;
+  for (const auto& term : drive_terms_[axis]) term->add_friction(drive, sum_v);
   if (has_gear_friction_[axis]) {
     double carried_v = drive_v;
-    for (const auto& term : drive_terms_[axis]) carried_v -= term->position_force_v(state);
-    for (const auto& term : drive_terms_[axis]) term->add_gear_friction(state, std::abs(carried_v), sum);
+    for (const auto& term : drive_terms_[axis]) carried_v -= term->position_force_v(drive.position);
+    for (const auto& term : drive_terms_[axis]) term->add_gear_friction(drive, std::abs(carried_v), sum_v);
   }
-  for (const auto& structure : structure_terms_) structure.term->relieve_friction(parameters_, state, sum);
-  return sum[axis];
+  if (structure_terms_.empty()) return sum_v;
+  PerAxis relieved{};
+  relieved[axis] = sum_v;
+  for (const auto& structure : structure_terms_)
+    structure.term->relieve_friction(parameters_, state, relieved);
+  return relieved[axis];
 }
 
 std::array<PerAxis, kAxes> Model::friction_response(const State& state, const Locks& locks,

@@ -24,7 +24,7 @@ constexpr int kScaleRounds = 4;
 constexpr double kSameScale = 0.03;
 /// A search from scratch uses about this number of windows, evenly distributed; a search near its result uses
 /// all.
-constexpr std::size_t kFewWindows = 30;
+constexpr std::size_t kFewWindows = 12;
 
 /// Coordinate search on grids. Accelerations are in multiples of the noise.
 class Learning {

@@ -36,10 +36,13 @@ std::vector<Disturbance> EquationError::disturbances() const {
   return all;
 }
 
-std::vector<Disturbance> EquationError::disturbances_of(const Replays& crane) const {
+std::vector<Disturbance> EquationError::disturbances_of(const Replays& crane,
+                                                        const std::vector<Disturbance>& near) const {
   std::vector<Disturbance> all;
   if (drive_.empty()) return all;
-  for (const Output axis : drive_.outputs()) all.push_back(pieces_of(drive_.runs(), crane, axis).disturbance);
+  for (std::size_t i = 0; i < drive_.outputs().size(); ++i)
+    all.push_back(
+        disturbance_of(drive_.runs(), crane, drive_.outputs()[i], near.empty() ? Disturbance{} : near[i]));
   return all;
 }
 

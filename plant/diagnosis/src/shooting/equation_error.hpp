@@ -15,8 +15,10 @@ class EquationError {
   /// Whitened with these disturbances, by output of the drives. @param crane  any crane on these runs
   EquationError(const Problem& drive, const std::vector<Disturbance>& disturbances, const Replays& crane);
   [[nodiscard]] std::vector<Disturbance> disturbances() const;
-  /// Disturbances of the residual of `crane`, by output of the drives.
-  [[nodiscard]] std::vector<Disturbance> disturbances_of(const Replays& crane) const;
+  /// Disturbances of the residual of `crane`, by output of the drives. @param near  disturbances of a similar
+  /// residual, with which the search begins; empty: none are known
+  [[nodiscard]] std::vector<Disturbance> disturbances_of(const Replays& crane,
+                                                         const std::vector<Disturbance>& near = {}) const;
 
   /// Whitened residual of each piece, start projected out.
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Replays& crane) const;

@@ -136,6 +136,29 @@ void marginalise_start(const Piece& piece, VectorXd& residual) {
   residual -= piece.basis * (piece.basis.transpose() * residual).eval();
 }
 
+/// The moving stretches of all runs, with their residuals.
+struct Stretches {
+  std::vector<MovingStretch> all;
+  std::vector<VectorXd> residuals;
+  std::vector<WindowMotion> motions;
+};
+
+Stretches stretches_of(const Runs& runs, const Replays& crane, Output axis) {
+  Stretches found;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r].run.has(axis)) continue;
+    const Replay::Increments& drive = crane[r].increments_along_measurement(axis);
+    for (MovingStretch& stretch : moving_stretches(runs[r], r, axis)) {
+      const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
+      stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
+      found.residuals.push_back(piece_residual(runs[r], drive, axis, stretch.first, stretch.rows));
+      found.motions.push_back(window_motion_of(runs[r], stretch, axis));
+      found.all.push_back(std::move(stretch));
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 double Pieces::loss() const {
@@ -151,33 +174,31 @@ double Pieces::squares() const {
 }
 
 Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Disturbance& known) {
-  std::vector<VectorXd> left;
-  std::vector<WindowMotion> motions;
-  std::vector<MovingStretch> stretches;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (!runs[r].run.has(axis)) continue;
-    const Replay::Increments& drive = crane[r].increments_along_measurement(axis);
-    for (MovingStretch& stretch : moving_stretches(runs[r], r, axis)) {
-      const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
-      stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
-      left.push_back(piece_residual(runs[r], drive, axis, stretch.first, stretch.rows));
-      motions.push_back(window_motion_of(runs[r], stretch, axis));
-      stretches.push_back(std::move(stretch));
-    }
-  }
+  Stretches stretches = stretches_of(runs, crane, axis);
   Pieces pieces{&runs, axis, known, {}};
-  if (stretches.empty()) return pieces;
-  if (!(known.noise > 0)) pieces.disturbance = learn(left, motions, least_noise_of(runs, axis));
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    auto& [run, first, rows, position] = stretches[i];
-    Piece piece{
-        run, first, rows, std::move(position), Whitener(pieces.disturbance, motions[i]), std::move(left[i]),
-        {}};
+  if (stretches.all.empty()) return pieces;
+  if (!(known.noise > 0))
+    pieces.disturbance = learn(stretches.residuals, stretches.motions, least_noise_of(runs, axis));
+  for (std::size_t i = 0; i < stretches.all.size(); ++i) {
+    auto& [run, first, rows, position] = stretches.all[i];
+    Piece piece{run,
+                first,
+                rows,
+                std::move(position),
+                Whitener(pieces.disturbance, stretches.motions[i]),
+                std::move(stretches.residuals[i]),
+                {}};
     piece.basis = start_basis(piece.whitener, runs[run].run, first, rows);
     marginalise_start(piece, piece.residual);
     pieces.all.push_back(std::move(piece));
   }
   return pieces;
+}
+
+Disturbance disturbance_of(const Runs& runs, const Replays& crane, Output axis, const Disturbance& near) {
+  const Stretches stretches = stretches_of(runs, crane, axis);
+  if (stretches.all.empty()) return {};
+  return learn(stretches.residuals, stretches.motions, least_noise_of(runs, axis), near);
 }
 
 std::vector<VectorXd> plain_residuals_of(const Pieces& pieces, const Replays& crane) {

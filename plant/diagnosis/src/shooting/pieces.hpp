@@ -37,6 +37,10 @@ struct Pieces {
 /// @param known disturbance; noise 0: learnt from the pieces
 [[nodiscard]] Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis,
                                const Disturbance& known = {});
+/// Disturbance of the pieces of a drive. @param near  disturbance of a similar residual, with which the
+/// search begins; noise 0: none is known
+[[nodiscard]] Disturbance disturbance_of(const Runs& runs, const Replays& crane, Output axis,
+                                         const Disturbance& near);
 /// Residuals of another crane on the pieces of a drive, not whitened, m or rad.
 [[nodiscard]] std::vector<Eigen::VectorXd> plain_residuals_of(const Pieces& pieces, const Replays& crane);
 /// Residuals or slopes by piece of a drive, whitened like the pieces, start projected out.

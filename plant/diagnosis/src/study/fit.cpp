@@ -34,8 +34,9 @@ constexpr double kWorthAStep = 0.3;
 /// below `loss_to_beat`.
 constexpr int kLeastRounds = 1;
 constexpr double kDecreaseMargin = 4;
-/// The slopes are computed again only if the decrease of the loss by a step differs from the predicted one by
-/// more than this share (gain ratio of a trust region: J. J. Moré, Lect. Notes Math. 630 (1978) 105).
+/// The slopes along effects are computed again only if the decrease of the loss by a step differs from the
+/// predicted one by more than this share (gain ratio of a trust region: J. J. Moré, Lect. Notes Math. 630
+/// (1978) 105).
 constexpr double kAsPredicted = 0.25;
 
 struct Flat {
@@ -98,15 +99,15 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
 
 /// Groups of values that change together in a step: all values; then, if there are several effects, the
 /// values of each effect alone, so that an effect with a discontinuous loss does not block the others.
-/// @param apart number of leading effects that are stepped alone
-std::vector<std::vector<Index>> step_groups(const Effects& effects, std::size_t apart) {
+/// @param alone  false: no effect alone
+std::vector<std::vector<Index>> step_groups(const Effects& effects, bool alone) {
   std::vector<std::vector<Index>> groups(1);
   Index next = 0;
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    std::vector<Index> own(effects[i].values.size());
+  for (const Effect& effect : effects) {
+    std::vector<Index> own(effect.values.size());
     for (Index& k : own) k = next++;
     groups[0].insert(groups[0].end(), own.begin(), own.end());
-    if (i < apart && effects.size() > 1) groups.push_back(std::move(own));
+    if (alone && effects.size() > 1) groups.push_back(std::move(own));
   }
   return groups;
 }
@@ -190,13 +191,35 @@ Effects search_around(const WhitenedData& data, const Effects& effects, const Ev
   return best.effects;
 }
 
+/// Number of values of the leading effects, without those of the inaccuracies that follow.
+std::size_t own_values(const Effects& effects, std::size_t inaccuracies) {
+  std::size_t values = 0;
+  for (std::size_t i = 0; i + inaccuracies < effects.size(); ++i) values += effects[i].values.size();
+  return values;
+}
+
+/// Forgets the slopes along the effects, and those along the inaccuracies in the parts in which the
+/// simulation is unlike the one at which they were computed. @param computed_at  this simulation
+void forget_old(const WhitenedData& data, const Fitted& best, std::size_t inaccuracies, Slopes& along,
+                Simulation& computed_at) {
+  const std::size_t own = own_values(best.effects, inaccuracies);
+  along.forget(0, own, {true, true});
+  if (inaccuracies == 0) return;
+  const ShowsIn moved = unlike(data.body(), best.effects, best.train, computed_at);
+  along.forget(own, along.size(), moved);
+  Simulation now = simulation_of(best.train);
+  if (moved.drive) computed_at.drive = std::move(now.drive);
+  if (moved.load) computed_at.load = std::move(now.load);
+}
+
 }  // namespace
 
-bool descend(const WhitenedData& data, Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
-             std::size_t apart, double least_gain) {
+bool descend(const WhitenedData& data, Fitted& best, const Descent& descent, Slopes& along) {
+  const auto [loss, loss_to_beat, inaccuracies, least_gain] = descent;
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   const double enough =
       loss == Loss::robust ? least_gain : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least);
+  Simulation computed_at = inaccuracies > 0 ? simulation_of(best.train) : Simulation{};
   std::optional<Slopes> here;  // `along`, whitened
   for (int round = 0; round < kMostRounds; ++round) {
     if (!here) {
@@ -213,7 +236,7 @@ bool descend(const WhitenedData& data, Fitted& best, Loss loss, double loss_to_b
     const Flat flat = flatten(best.effects);
     double gained = 0;
     bool as_predicted = true;
-    const auto groups = step_groups(best.effects, apart);
+    const auto groups = step_groups(best.effects, inaccuracies == 0);
     if (predicted_decrease_of(both, bounded_step(both.curvature, gradient, flat, 0, groups[0])) <
         kWorthAStep * enough)
       break;
@@ -241,7 +264,9 @@ bool descend(const WhitenedData& data, Fitted& best, Loss loss, double loss_to_b
       if (gained < enough) damping = kFirstDamping;
     }
     if (gained < enough) break;  // converged
-    if (!as_predicted) along = {}, here.reset();
+    if (as_predicted) continue;
+    forget_old(data, best, inaccuracies, along, computed_at);
+    here.reset();
   }
   return true;
 }
@@ -260,9 +285,9 @@ Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat, const
   if (!same_values(start.effects, best.effects)) along = {};
   along.keep_first(static_cast<std::size_t>(flatten(best.effects).values.size()));
   start = best;
-  const bool can_beat = descend(data, best, Loss::squares, loss_to_beat, along, best.effects.size());
+  const bool can_beat = descend(data, best, {.loss = Loss::squares, .loss_to_beat = loss_to_beat}, along);
   if (start.train.loss < best.train.loss) best = start, along = {};
-  if (can_beat) descend(data, best, Loss::robust, loss_to_beat, along, best.effects.size());
+  if (can_beat) descend(data, best, {.loss_to_beat = loss_to_beat}, along);
   along = data.plain_slopes(best.effects, best.train, std::move(along));
   set_block_std_dev(data, data.whitened(along, best.train), {}, best);
   best.nuisance = data.nuisance();
@@ -276,7 +301,7 @@ Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat, const
 
 Fitted converged(const WhitenedData& data, Fitted fitted) {
   Slopes along;
-  descend(data, fitted, Loss::robust, kNothingToBeat, along, fitted.effects.size(), kLeastGainOfVerdict);
+  descend(data, fitted, {.least_gain = kLeastGainOfVerdict}, along);
   along = data.plain_slopes(fitted.effects, fitted.train, std::move(along));
   set_block_std_dev(data, data.whitened(along, fitted.train), {}, fitted);
   return fitted;

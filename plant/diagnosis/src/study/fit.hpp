@@ -29,12 +29,18 @@ inline constexpr double kLeastGain = 0.3;
 /// The fit at the minimum of the loss near its values.
 [[nodiscard]] Fitted converged(const WhitenedData& data, Fitted fitted);
 
-/// Gauss-Newton rounds from `best`. @param along  plain slopes at `best` of its leading values, as far as
-/// known; those of the result on return, all or none
-/// @param apart  number of leading effects whose values also change alone
-/// @param least_gain  a round that decreases the Cauchy loss by less is the last one
+struct Descent {
+  Loss loss = Loss::robust;
+  double loss_to_beat = kNothingToBeat;  ///< the descent ends early when the loss cannot fall below
+  /// Number of trailing effects that are inaccuracies of the rig file. Their slopes are used as long as the
+  /// simulation is alike (body.hpp). Without inaccuracies, the values of each effect also change alone.
+  std::size_t inaccuracies = 0;
+  double least_gain = kLeastGain;  ///< a round that decreases the Cauchy loss by less is the last one
+};
+
+/// Gauss-Newton rounds from `best`. @param along  plain slopes at `best`, as far as known; on return those of
+/// the result, as far as known
 /// @return false when the loss cannot fall below `loss_to_beat`
-bool descend(const WhitenedData& data, Fitted& best, Loss loss, double loss_to_beat, Slopes& along,
-             std::size_t apart, double least_gain = kLeastGain);
+bool descend(const WhitenedData& data, Fitted& best, const Descent& descent, Slopes& along);
 
 }  // namespace crane::diagnosis

@@ -12,15 +12,13 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Appends the slopes of the base model along the inaccuracies `beside`, if the simulation with the effects
-/// is like that of the base model. @param along  of the effects
+/// Appends the slopes of the base model along the inaccuracies `beside`, in the parts in which the simulation
+/// with the effects is like that of the base model. @param along  of the effects
 void append_base_slopes(const WhitenedData& data, const BaseSlopes& base, const Fitted& fitted,
                         const Effects& beside, Slopes& along) {
   std::size_t own = 0;
   for (const Effect& effect : fitted.effects) own += effect.values.size();
   if (along.size() != own || base.of_values.empty()) return;
-  const ShowsIn other = unlike(data.body(), fitted.effects, fitted.train, base.simulation);
-  if (other.drive || other.load) return;
   std::size_t first = 0;
   for (const Effect& present : data.nuisance().inaccuracies) {
     const bool fitted_beside = std::ranges::any_of(
@@ -29,6 +27,7 @@ void append_base_slopes(const WhitenedData& data, const BaseSlopes& base, const 
       along.push_back(base.of_values[i]);
     first += present.values.size();
   }
+  along.forget(own, along.size(), unlike(data.body(), fitted.effects, fitted.train, base.simulation));
 }
 
 }  // namespace
@@ -42,7 +41,7 @@ void fit_jointly(const WhitenedData& data, const BaseSlopes& base, Fitted& fitte
   joint.effects.insert(joint.effects.end(), beside.begin(), beside.end());
   joint.train = fitted.train;
   append_base_slopes(data, base, fitted, beside, along);
-  descend(data, joint, Loss::robust, kNothingToBeat, along, 0);
+  descend(data, joint, {.inaccuracies = beside.size()}, along);
   const auto first = joint.effects.begin() + static_cast<std::ptrdiff_t>(fitted.effects.size());
   for (auto inaccuracy = first; inaccuracy != joint.effects.end(); ++inaccuracy)
     for (Effect& present : fitted.nuisance.inaccuracies)

@@ -89,7 +89,8 @@ Nuisance own_nuisance(const WhitenedData& data, const Fitted& fitted, const Nuis
   if (!data.drive().empty() && (parts.drive || unchanged.drive.empty())) {
     const Crane crane = data.study().crane(fitted.nuisance.inaccuracies, fitted.effects);
     found.drive = data.drive().disturbances_of(fitted.train.drive, near.drive);
-    found.equation_error = data.body().equation_error.disturbances_of(replays_of(data.runs(), crane));
+    found.equation_error =
+        data.body().equation_error.disturbances_of(replays_of(data.runs(), crane), near.equation_error);
   }
   if (!data.load().empty() && (parts.load || unchanged.load.empty()))
     found.load = data.load().disturbances_of(fitted.train.load, near.load);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "study/hypothesis.hpp"
+
 namespace crane::diagnosis {
 
 /// One vector per window or piece of a part of the data, for example the changes of its outputs per unit.
@@ -17,7 +19,7 @@ struct PlainSlope {
 };
 
 /// Slopes along several values, whitened or plain, by value and by window or piece. Empty where a value is
-/// not visible.
+/// not visible or its slope is not known.
 struct Slopes {
   std::vector<PartVectors> drive, equation_error, load;
 
@@ -32,6 +34,13 @@ struct Slopes {
   void append(Slopes more) {
     for (std::size_t i = 0; i < more.size(); ++i)
       push_back({std::move(more.drive[i]), std::move(more.equation_error[i]), std::move(more.load[i])});
+  }
+  /// Empties the slopes of the values from `first` to the one before `end`, in these parts.
+  void forget(std::size_t first, std::size_t end, ShowsIn parts) {
+    for (std::size_t i = first; i < std::min(end, size()); ++i) {
+      if (parts.drive) drive[i].clear(), equation_error[i].clear();
+      if (parts.load) load[i].clear();
+    }
   }
   /// Drops the slopes of all but the first values.
   void keep_first(std::size_t values) {

@@ -44,21 +44,25 @@ PlainSlope WhitenedData::plain_slope(const Replays& crane, const Evaluation& at,
 }
 
 Slopes WhitenedData::plain_slopes(const Effects& effects, const Evaluation& at, Slopes known) const {
-  const std::size_t first = known.size();
   std::size_t value_index = 0;
   PartVectors unmoved;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const Candidate& candidate = *effects[e].candidate;
     for (std::size_t i = 0; i < candidate.parameters.size(); ++i, ++value_index) {
-      if (value_index < first) continue;
-      if (candidate.drive && unmoved.empty())
+      if (value_index == known.size()) known.push_back({});
+      const ShowsIn missing{candidate.drive && !drive().empty() && known.drive[value_index].empty(),
+                            candidate.load && !load().empty() && known.load[value_index].empty()};
+      if (!missing.drive && !missing.load) continue;
+      if (missing.drive && unmoved.empty())
         unmoved = body_.equation_error.plain_residuals(replays_of(runs(), with(effects)));
       Effects moved = effects;
       double& value = moved[e].values[i];
       const double step = difference_step(candidate.parameters[i], value);
       value += step;
-      known.push_back(
-          plain_slope(replays_of(runs(), with(moved)), at, step, {candidate.drive, candidate.load}, unmoved));
+      PlainSlope slope = plain_slope(replays_of(runs(), with(moved)), at, step, missing, unmoved);
+      if (missing.drive) known.drive[value_index] = std::move(slope.drive);
+      if (missing.drive) known.equation_error[value_index] = std::move(slope.equation_error);
+      if (missing.load) known.load[value_index] = std::move(slope.load);
     }
   }
   return known;

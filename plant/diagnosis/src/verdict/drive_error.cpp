@@ -103,7 +103,8 @@ std::vector<DriveError> drive_errors(const WhitenedData& data, const Crane& cran
   const Fits base = plain.fit(replays_of(plain.runs(), crane));
   const std::vector<Inaccurate> inaccurate = inaccurate_cranes(data.study(), crane, rig, accuracy);
   std::vector<Fits> wrong;
-  for (const Inaccurate& one : inaccurate) wrong.push_back(plain.fit(replays_of(plain.runs(), one.crane)));
+  for (const Inaccurate& one : inaccurate)
+    wrong.push_back(plain.fit_near(replays_of(plain.runs(), one.crane), base));
   for (std::size_t output = 0; output < plain.outputs().size(); ++output) {
     DriveError& error = errors.emplace_back();
     error.output = plain.outputs()[output];

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "crane/plant/smooth_sign.hpp"
 #include "crane/plant/term.hpp"
 #include "terms/far_side.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {

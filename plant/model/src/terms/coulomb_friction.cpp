@@ -1,7 +1,4 @@
-#include <cmath>
-
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -9,16 +6,13 @@ namespace {
 class CoulombFriction final : public Term {
  public:
   explicit CoulombFriction(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        level_v_(s.parameters.at("level_v")),
-        smoothing_speed_(s.parameters.at("smoothing_speed")) {}
+      : level_v_(s.parameters.at("level_v")), smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    friction_v[axis_] += level_v_ * smooth_sign(speed(state, axis_), smoothing_speed_);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    friction_v += level_v_ * drive.smooth_sign(smoothing_speed_);
   }
 
  private:
-  Axis axis_;
   double level_v_, smoothing_speed_;
 };
 

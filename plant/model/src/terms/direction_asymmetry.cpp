@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -9,18 +8,16 @@ namespace {
 class DirectionAsymmetry final : public Term {
  public:
   explicit DirectionAsymmetry(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        coulomb_v_(s.parameters.at("coulomb_v")),
+      : coulomb_v_(s.parameters.at("coulomb_v")),
         viscous_vspm_(s.parameters.at("viscous_vspm")),
         smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    const double v = std::abs(speed(state, axis_));
-    friction_v[axis_] += coulomb_v_ * smooth_sign(v, smoothing_speed_) + viscous_vspm_ * v;
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    friction_v +=
+        coulomb_v_ * std::abs(drive.smooth_sign(smoothing_speed_)) + viscous_vspm_ * std::abs(drive.speed);
   }
 
  private:
-  Axis axis_;
   double coulomb_v_, viscous_vspm_, smoothing_speed_;
 };
 

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -10,18 +9,17 @@ namespace {
 class DriveFriction final : public Term {
  public:
   explicit DriveFriction(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        positive_{s, "positive"},
+      : positive_{s, "positive"},
         negative_{s, "negative"},
         stiction_speed_(s.parameters.at("stiction_speed")),
         smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    const double v = speed(state, axis_);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    const double v = drive.speed;
     const Direction& d = v >= 0 ? positive_ : negative_;
     double level_v = d.coulomb_v;
     if (d.excess_v > 0) level_v += d.excess_v * std::exp(-v * v / (stiction_speed_ * stiction_speed_));
-    friction_v[axis_] += level_v * smooth_sign(v, smoothing_speed_) + d.viscous_vspm * v;
+    friction_v += level_v * drive.smooth_sign(smoothing_speed_) + d.viscous_vspm * v;
   }
 
  private:
@@ -32,7 +30,6 @@ class DriveFriction final : public Term {
           excess_v(std::max(0.0, s.parameters.at("stiction_" + sign + "_v") - coulomb_v)) {}
     double viscous_vspm, coulomb_v, excess_v;
   };
-  Axis axis_;
   Direction positive_, negative_;
   double stiction_speed_, smoothing_speed_;
 };

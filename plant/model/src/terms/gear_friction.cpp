@@ -1,5 +1,4 @@
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -7,17 +6,15 @@ namespace {
 class GearFriction final : public Term {
  public:
   explicit GearFriction(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        share_(s.parameters.at("share")),
-        smoothing_speed_(s.parameters.at("smoothing_speed")) {}
+      : share_(s.parameters.at("share")), smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
   [[nodiscard]] bool has_gear_friction() const noexcept override { return true; }
-  void add_gear_friction(const State& state, double carried_v, PerAxis& friction_v) const noexcept override {
-    friction_v[axis_] += share_ * carried_v * smooth_sign(speed(state, axis_), smoothing_speed_);
+  void add_gear_friction(const DriveMotion& drive, double carried_v,
+                         double& friction_v) const noexcept override {
+    friction_v += share_ * carried_v * drive.smooth_sign(smoothing_speed_);
   }
 
  private:
-  Axis axis_;
   double share_, smoothing_speed_;
 };
 

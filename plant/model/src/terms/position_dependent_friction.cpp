@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -10,19 +9,17 @@ namespace {
 class PositionDependentFriction final : public Term {
  public:
   explicit PositionDependentFriction(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        amplitude_v_(s.parameters.at("amplitude_v")),
+      : amplitude_v_(s.parameters.at("amplitude_v")),
         wave_number_(2 * std::numbers::pi / s.parameters.at("wavelength")),
         tight_at_(s.parameters.at("tight_at")),
         smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    const double tightness = 0.5 * (1 + std::cos(wave_number_ * (position(state, axis_) - tight_at_)));
-    friction_v[axis_] += amplitude_v_ * tightness * smooth_sign(speed(state, axis_), smoothing_speed_);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    const double tightness = 0.5 * (1 + std::cos(wave_number_ * (drive.position - tight_at_)));
+    friction_v += amplitude_v_ * tightness * drive.smooth_sign(smoothing_speed_);
   }
 
  private:
-  Axis axis_;
   double amplitude_v_, wave_number_, tight_at_, smoothing_speed_;
 };
 

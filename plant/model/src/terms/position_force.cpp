@@ -6,19 +6,16 @@ namespace {
 class PositionForce final : public Term {
  public:
   explicit PositionForce(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        stiffness_vpm_(s.parameters.at("stiffness_vpm")),
-        offset_v_(s.parameters.at("offset_v")) {}
+      : stiffness_vpm_(s.parameters.at("stiffness_vpm")), offset_v_(s.parameters.at("offset_v")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    friction_v[axis_] -= position_force_v(state);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    friction_v -= position_force_v(drive.position);
   }
-  [[nodiscard]] double position_force_v(const State& state) const noexcept override {
-    return offset_v_ - stiffness_vpm_ * position(state, axis_);
+  [[nodiscard]] double position_force_v(double position) const noexcept override {
+    return offset_v_ - stiffness_vpm_ * position;
   }
 
  private:
-  Axis axis_;
   double stiffness_vpm_, offset_v_;
 };
 

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -9,18 +8,16 @@ namespace {
 class StribeckFriction final : public Term {
  public:
   explicit StribeckFriction(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        excess_v_(s.parameters.at("excess_v")),
+      : excess_v_(s.parameters.at("excess_v")),
         decay_speed_(s.parameters.at("decay_speed")),
         smoothing_speed_(s.parameters.at("smoothing_speed")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    const double v = speed(state, axis_), ratio = v / decay_speed_;
-    friction_v[axis_] += excess_v_ * std::exp(-ratio * ratio) * smooth_sign(v, smoothing_speed_);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    const double ratio = drive.speed / decay_speed_;
+    friction_v += excess_v_ * std::exp(-ratio * ratio) * drive.smooth_sign(smoothing_speed_);
   }
 
  private:
-  Axis axis_;
   double excess_v_, decay_speed_, smoothing_speed_;
 };
 

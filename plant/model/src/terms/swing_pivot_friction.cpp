@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "crane/plant/smooth_sign.hpp"
 #include "crane/plant/term.hpp"
-#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {

@@ -9,20 +9,18 @@ namespace {
 class TorqueRipple final : public Term {
  public:
   explicit TorqueRipple(const TermSetting& s)
-      : axis_(drive_axis(s.axis)),
-        amplitude_v_(s.parameters.at("amplitude_v")),
+      : amplitude_v_(s.parameters.at("amplitude_v")),
         phase_rad_(s.parameters.at("phase_rad")),
         wave_number_(2 * std::numbers::pi / s.parameters.at("period")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    friction_v[axis_] -= position_force_v(state);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    friction_v -= position_force_v(drive.position);
   }
-  [[nodiscard]] double position_force_v(const State& state) const noexcept override {
-    return amplitude_v_ * std::sin(wave_number_ * position(state, axis_) + phase_rad_);
+  [[nodiscard]] double position_force_v(double position) const noexcept override {
+    return amplitude_v_ * std::sin(wave_number_ * position + phase_rad_);
   }
 
  private:
-  Axis axis_;
   double amplitude_v_, phase_rad_, wave_number_;
 };
 

@@ -5,15 +5,13 @@ namespace {
 
 class ViscousFriction final : public Term {
  public:
-  explicit ViscousFriction(const TermSetting& s)
-      : axis_(drive_axis(s.axis)), vspm_(s.parameters.at("vspm")) {}
+  explicit ViscousFriction(const TermSetting& s) : vspm_(s.parameters.at("vspm")) {}
 
-  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    friction_v[axis_] += vspm_ * speed(state, axis_);
+  void add_friction(const DriveMotion& drive, double& friction_v) const noexcept override {
+    friction_v += vspm_ * drive.speed;
   }
 
  private:
-  Axis axis_;
   double vspm_;
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crane/plant/drive_motion.hpp"
 #include "crane/plant/equations.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/plant/state.hpp"
@@ -59,17 +60,18 @@ class Term {
   virtual void change_command(PerAxis& /*drive_v*/, double /*period_s*/) noexcept {}
   /// Drive terms: adds friction, in volts of the amplifier (F / K_m). A positive value opposes a positive
   /// speed.
-  virtual void add_friction(const State& /*state*/, PerAxis& /*friction_v*/) const noexcept {}
+  virtual void add_friction(const DriveMotion& /*drive*/, double& /*friction_v*/) const noexcept {}
   /// Drive terms: force that depends on the position only, in volts of the amplifier, positive along the
   /// axis. A term with such a force subtracts it in add_friction.
-  [[nodiscard]] virtual double position_force_v(const State& /*state*/) const noexcept { return 0; }
+  /// @param position  of the drive [m or rad]
+  [[nodiscard]] virtual double position_force_v(double /*position*/) const noexcept { return 0; }
   /// Drive terms: true if add_gear_friction() adds friction.
   [[nodiscard]] virtual bool has_gear_friction() const noexcept { return false; }
   /// Drive terms: adds friction that grows with the force in the gear.
   /// @param carried_v  |V - P| [V], V the output of the amplifier, P the sum of the forces that depend on the
   ///   position, for example a weight that the gear holds against the motor
-  virtual void add_gear_friction(const State& /*state*/, double /*carried_v*/,
-                                 PerAxis& /*friction_v*/) const noexcept {}
+  virtual void add_gear_friction(const DriveMotion& /*drive*/, double /*carried_v*/,
+                                 double& /*friction_v*/) const noexcept {}
   /// Structure terms: subtracts the part of a drive's friction that acts beyond the structure.
   virtual void relieve_friction(const Parameters& /*crane*/, const State& /*state*/,
                                 PerAxis& /*friction_v*/) const noexcept {}
