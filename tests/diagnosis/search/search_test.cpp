@@ -6,7 +6,9 @@
 
 #include "laboratory/data_of_truth.hpp"
 #include "search/compare.hpp"
+#include "search/drive_pairs.hpp"
 #include "search/intervals.hpp"
+#include "search/score_tests.hpp"
 #include "search/search.hpp"
 #include "truth/truth.hpp"
 
@@ -25,6 +27,28 @@ TEST(Search, FindsALongDelayOfTheCommand) {
   const Fitted best = searched(study, learnt_base_model(study), {.most_effects = 1}).best;
   ASSERT_EQ(label_of(best.effects), "command_delay (trolley)");
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
+}
+
+/// The effects partly cancel: without the lower Coulomb friction, the fit of the Stribeck friction
+/// compensates with a smaller excess, and a lower Coulomb friction alone does not improve the simulation. The
+/// truth has the exponential form of the Stribeck friction.
+TEST(Search, FindsALowerCoulombFrictionBesideAStribeckFriction) {
+  truth::Case request;
+  request.rig = "tower";
+  request.training_runs = {"rich"};
+  request.seed = 3;
+  request.seconds = 30;
+  request.effects = {{"coulomb_friction", -0.62, "trolley"}, {"stribeck_friction", 1.2, "trolley"}};
+  const DataOfTruth data(request);
+  const Study study(data.rig, data.train, data.test);
+  const WhitenedData whitened(study, learnt_nuisance(study));
+  const Fitted base = base_fit(whitened);
+  ScoreTests scores(request.seed);
+  (void)scores.beside(whitened, base);
+  const std::vector<Effects> pairs = strongest_drive_pairs(whitened, base.train, scores.probe_slopes(), 1);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(label_of(pairs[0]), "coulomb_friction (trolley) + stribeck_friction (trolley)");
+  EXPECT_NEAR(pairs[0][0].values[0], -0.186, 0.05) << "Coulomb friction, V";
 }
 
 /// If the amount of its further effect is 0, a hypothesis is as likely as its part.

@@ -13,6 +13,8 @@ class ScoreTests {
 
   /// Scores beside a hypothesis; valid until the next call. @param data in its noise
   [[nodiscard]] const ScoreTable& beside(const WhitenedData& data, const Fitted& given);
+  /// Slopes of the probes of the base model.
+  [[nodiscard]] const ProbeSlopes& probe_slopes() const { return probe_slopes_; }
 
  private:
   /// Score test beside a hypothesis, which its deviance identifies.

@@ -6,6 +6,7 @@
 
 #include "rules.hpp"
 #include "search/compare.hpp"
+#include "search/drive_pairs.hpp"
 #include "search/initial_values.hpp"
 #include "search/parts.hpp"
 #include "search/prospects.hpp"
@@ -24,6 +25,8 @@ constexpr std::size_t kBeam = 2;
 /// Number of best single effects of which all pairs are fitted, because a pair may explain what neither
 /// effect explains.
 constexpr std::size_t kPaired = 3;
+/// Number of pairs of one drive that are fitted because they describe the equation error best.
+constexpr std::size_t kDrivePairs = 3;
 /// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
 
@@ -211,6 +214,8 @@ class Search {
     return extend(given, count, {}, distance_from(best, given));
   }
 
+  /// Fits the pairs of the best single effects, and the pairs that describe the equation error of a drive
+  /// best.
   void try_pairs(const std::vector<Fitted>& singles) {
     const WhitenedData data(study_, found_.best.nuisance);
     const Fitted base = base_fit(data);
@@ -219,6 +224,9 @@ class Search {
         const Effects pair{singles[i].effects[0], singles[j].effects[0]};
         if (!known(pair)) tried_.push_back(first_fit(data, pair, base));
       }
+    for (const Effects& pair :
+         strongest_drive_pairs(data, base.train, score_tests_.probe_slopes(), kDrivePairs))
+      if (!known(pair)) tried_.push_back(first_fit(data, pair, base));
   }
 
   /// Refits the tried hypotheses that are worth it with their own noise.

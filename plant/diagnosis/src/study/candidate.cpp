@@ -66,7 +66,7 @@ class Builder {
     const double c = known.least_coulomb_v;
     std::vector<std::vector<double>> levels, sides, offsets, gains, inertias, excesses;
     if (c > 0) {
-      excesses = {{0.3 * c, 0.06}, {0.6 * c, 0.06}, {0.45 * c, 0.12}};
+      excesses = {{0.3 * c, 0.06, 2}, {0.6 * c, 0.06, 2}, {0.45 * c, 0.12, 2}};
       levels = {{-0.15 * c}, {-0.3 * c}, {-0.6 * c}, {0.3 * c}};
       for (const double share : {-0.3, -0.1, -0.04, 0.04, 0.1, 0.3}) {
         sides.push_back({share * c, 0});
@@ -87,8 +87,9 @@ class Builder {
     add_force(GoesWith::speed,
               reaching(shaped("stribeck_friction", axis,
                               free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
-                              {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
-                              {{0.01}, {0.03}, {0.08}, {0.2}}),
+                              {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002),
+                               free_parameter("stribeck_friction", "exponent", 1, 2, 0.1)},
+                              {{0.01, 2}, {0.03, 2}, {0.08, 2}, {0.2, 2}, {0.02, 1}, {0.06, 1}}),
                        excesses));
     add_tight_spots(axis, output);
     add_ripple(axis, output);

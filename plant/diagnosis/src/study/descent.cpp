@@ -48,33 +48,6 @@ double predicted_decrease_of(const BlockScores& at, const VectorXd& step) {
   return step.allFinite() ? 2 * at.gradient().dot(step) - step.dot(at.curvature * step) : 0;
 }
 
-/// Damped step of the values `active` inside their bounds. A value whose step leads to its bound or beyond
-/// is held at the bound, and the step of the others minimises the same parabola beside it (active set).
-VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const FreeValues& free, double damping,
-                      std::vector<Index> active) {
-  VectorXd step = VectorXd::Zero(free.values.size());
-  while (!active.empty()) {
-    const VectorXd gradient = g - h * step;  // the steps of active values are 0
-    MatrixXd reduced = h(active, active);
-    reduced.diagonal() *= 1 + damping;
-    const VectorXd moved = solve(reduced, gradient(active));
-    std::vector<Index> inside;
-    VectorXd next = step;
-    for (Index i = 0; i < moved.size(); ++i) {
-      const Index at = active[static_cast<std::size_t>(i)];
-      const FreeParameter& p = *free.parameters[static_cast<std::size_t>(at)];
-      const double wanted = free.values[at] + moved[i], kept = std::clamp(wanted, p.low, p.high);
-      next[at] = kept - free.values[at];
-      if (kept == wanted) inside.push_back(at);
-    }
-    if (inside.size() == active.size()) return next;
-    for (const Index at : inside) next[at] = 0;
-    step = std::move(next);
-    active = std::move(inside);
-  }
-  return step;
-}
-
 /// Groups of values that change together in a step: all values; then, if there are several effects, the
 /// values of each effect alone, so that an effect with a discontinuous loss does not block the others.
 /// @param alone  false: no effect alone

@@ -1,6 +1,5 @@
 #pragma once
 /// The values of effects as one vector, with their bounds and steps.
-#include <algorithm>
 #include <vector>
 
 #include "study/hypothesis.hpp"
@@ -12,21 +11,17 @@ struct FreeValues {
   Eigen::VectorXd values;
 };
 
-[[nodiscard]] inline FreeValues free_values_of(const Effects& effects) {
-  FreeValues all;
-  std::vector<double> values;
-  for (const Effect& effect : effects) {
-    for (const FreeParameter& p : effect.candidate->parameters) all.parameters.push_back(&p);
-    values.insert(values.end(), effect.values.begin(), effect.values.end());
-  }
-  all.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  return all;
-}
+[[nodiscard]] FreeValues free_values_of(const Effects& effects);
 
 /// @pre the same candidates
-[[nodiscard]] inline bool same_values(const Effects& a, const Effects& b) {
-  return std::equal(a.begin(), a.end(), b.begin(),
-                    [](const Effect& x, const Effect& y) { return x.values == y.values; });
-}
+[[nodiscard]] bool same_values(const Effects& a, const Effects& b);
+
+/// Damped step of the values `active` inside their bounds (Levenberg). A value whose step leads to its bound
+/// or beyond is held at the bound, and the step of the others minimises the same parabola beside it (active
+/// set).
+/// @param h,g  curvature and gradient of the decrease of the loss
+[[nodiscard]] Eigen::VectorXd bounded_step(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
+                                           const FreeValues& free, double damping,
+                                           std::vector<Eigen::Index> active);
 
 }  // namespace crane::diagnosis
