@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "crane/plant/pendulum.hpp"
 #include "laboratory/strange_lab.hpp"
+#include "study/body.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -36,6 +40,19 @@ TEST(WindowsOfALoad, HaveTheSlopesOfTheirWhitenedOutputs) {
   for (std::size_t w = 0; w < slopes.size(); ++w) {
     EXPECT_GT(expected[w].norm(), 0);
     EXPECT_LT((slopes[w] - expected[w]).norm(), 1e-9 * expected[w].norm()) << "window " << w;
+  }
+}
+
+/// In shorter windows, the free start explains most of the effect of a second cable.
+TEST(WindowsOfALoad, ContainAPeriodOfASlowSwing) {
+  const Laboratory lab;
+  Runs runs;
+  runs.push_back(prepare(lab.run, lab.rig));
+  for (const double period_s : {1.0, 4.0}) {
+    const Body body(runs, 2 * std::numbers::pi / period_s);
+    for (const Window& window : body.load.windows())
+      EXPECT_NEAR(static_cast<double>(window.rows) * lab.run.period_s, std::max(2.0, period_s),
+                  0.15 * period_s);
   }
 }
 

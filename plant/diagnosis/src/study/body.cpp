@@ -1,5 +1,7 @@
 #include "study/body.hpp"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "robust.hpp"
@@ -10,9 +12,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Window lengths. The swing needs about one period. In a longer window of a drive that sticks and slips,
-/// late or missing slips dominate the residual and hide the error of the friction.
-constexpr double kSwingWindow_s = 2, kDriveWindow_s = 1;
+/// Window lengths. In a longer window of a drive that sticks and slips, late or missing slips dominate the
+/// residual and hide the error of the friction.
+constexpr double kShortestSwingWindow_s = 2, kDriveWindow_s = 1;
+
+/// A window contains a period of the swing: the start of a shorter one explains most errors of the load.
+double swing_window_s(double natural_radps) {
+  return natural_radps > 0 ? std::max(kShortestSwingWindow_s, 2 * std::numbers::pi / natural_radps)
+                           : kShortestSwingWindow_s;
+}
 
 Problem whitened_with(const Problem& plain, const std::vector<Disturbance>& disturbances) {
   return plain.empty() ? plain : plain.whitened_with(disturbances);
@@ -65,7 +73,7 @@ Evaluation summed(const Body& body, Fits of_drive, Fits of_load, std::vector<Vec
 Body::Body(const Runs& all, double natural_radps)
     : runs(all),
       drive(all, Part::drive, kDriveWindow_s, natural_radps),
-      load(all, Part::load, kSwingWindow_s, natural_radps),
+      load(all, Part::load, swing_window_s(natural_radps), natural_radps),
       equation_error(drive) {}
 
 Body::Body(const Body& plain, const Replays& crane)
