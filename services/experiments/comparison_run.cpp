@@ -1,60 +1,13 @@
 #include "experiments/comparison_run.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 
 #include "crane/experiment/variant.hpp"
+#include "crane/workers/for_each_on_threads.hpp"
+#include "crane/workers/process_pool.hpp"
 #include "experiments/experiment_run.hpp"
 
 namespace crane::experiments {
-namespace {
-
-/// Runs plans until all are done or a thread has failed.
-class Crew {
- public:
-  Crew(std::span<const PlannedRun> plans, const Progress& progress)
-      : plans_{plans}, progress_{progress}, results_(plans.size()) {}
-
-  std::vector<experiment::ComparedRun> work() {
-    const std::size_t hands =
-        std::min<std::size_t>(std::max(1U, std::thread::hardware_concurrency()), plans_.size());
-    {
-      std::vector<std::jthread> threads;
-      for (std::size_t i = 0; i < hands; ++i) threads.emplace_back([this] { run_what_is_left(); });
-    }
-    if (failure_) std::rethrow_exception(failure_);
-    return std::move(results_);
-  }
-
- private:
-  void run_what_is_left() {
-    for (std::size_t i = next_++; i < plans_.size(); i = next_++) {
-      try {
-        results_[i] = simulate(plans_[i]);
-      } catch (...) {
-        const std::scoped_lock lock{mutex_};
-        failure_ = std::current_exception();
-        next_ = plans_.size();
-        return;
-      }
-      const std::scoped_lock lock{mutex_};
-      progress_(++done_);
-    }
-  }
-
-  std::span<const PlannedRun> plans_;
-  const Progress& progress_;
-  std::vector<experiment::ComparedRun> results_;
-  std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;
-  std::size_t done_ = 0;
-  std::exception_ptr failure_;
-};
-
-}  // namespace
 
 experiment::ComparedRun simulate(const PlannedRun& plan) {
   return simulate(plan,
@@ -90,7 +43,15 @@ experiment::ComparedRun simulate(const PlannedRun& plan, const configuration::Ri
 
 std::vector<experiment::ComparedRun> simulate_all(std::span<const PlannedRun> plans,
                                                   const Progress& progress) {
-  return Crew{plans, progress}.work();
+  std::vector<experiment::ComparedRun> results(plans.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  workers::for_each_on_threads(plans.size(), workers::processors(), [&](std::size_t i) {
+    results[i] = simulate(plans[i]);
+    const std::scoped_lock lock{mutex};
+    progress(++done);
+  });
+  return results;
 }
 
 }  // namespace crane::experiments

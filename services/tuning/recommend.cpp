@@ -1,13 +1,12 @@
 #include "tuning/recommend.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "crane/experiment/metrics.hpp"
+#include "crane/workers/for_each_on_threads.hpp"
 #include "tuning/lockstep_crane.hpp"
 
 namespace crane::tuning {
@@ -15,28 +14,6 @@ namespace {
 
 constexpr std::size_t kTested = 4;  // number of entries whose margins are computed together
 constexpr double kDuration_s = 15;  // duration of a maneuver; a law that needs longer is not recommended
-
-/// Calls work(0) ... work(count - 1) on several threads. @throws the first exception of work
-void parallel(std::size_t count, unsigned processors, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto crew = [&] {
-    for (std::size_t i; (i = next++) < count;) try {
-        work(i);
-      } catch (...) {
-        const std::scoped_lock lock{mutex};
-        failure = std::current_exception();
-        next = count;
-      }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (unsigned i = 1; i < processors; ++i) threads.emplace_back(crew);
-    crew();
-  }
-  if (failure) std::rethrow_exception(failure);
-}
 
 void add(Entry& entry, const experiment::ComparedRun& run) {
   entry.settling_s.push_back(run.metrics ? run.metrics->settling_time_s : std::nullopt);
@@ -83,7 +60,7 @@ class Recommender {
                                             const configuration::Rig& rig) {
     const std::size_t maneuvers = search_.maneuvers.size();
     std::vector<experiment::ComparedRun> results(cases * maneuvers);
-    parallel(results.size(), search_.processors, [&](std::size_t i) {
+    workers::for_each_on_threads(results.size(), search_.processors, [&](std::size_t i) {
       results[i] = run_of(truth_of(i / maneuvers), rig, candidate_of(i / maneuvers),
                           search_.maneuvers[i % maneuvers], search_.integrator);
       results[i].samples.clear();
