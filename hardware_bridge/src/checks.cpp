@@ -187,7 +187,7 @@ bool unmoved(const History& history, std::size_t i, std::size_t newer, std::size
 }
 
 /// Number of consecutive ticks, up to this tick, in which the axis was free, the voltage had its present
-/// sign, and the counter did not change.
+/// sign, and the counter changed by at most kFlicker_counts.
 std::size_t ticks_without_motion(const History& history, std::size_t i) {
   const double side = history[0].observation.applied_v[i] > 0 ? 1 : -1;
   std::size_t ticks = 0;
@@ -197,8 +197,8 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
   return ticks;
 }
 
-/// True when an axis with known position must have moved by more than kVisible without a change of its
-/// counter. The distance is a lower bound: from rest, smallest gain, 1.5 times the friction, largest force of
+/// True when an axis with known position must have moved by more than kVisible while its counter
+/// changed by at most kFlicker_counts. The distance is a lower bound: from rest, smallest gain, 1.5 times the friction, largest force of
 /// the load.
 bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckParameters& axis,
                        const History& history, std::size_t i) {
