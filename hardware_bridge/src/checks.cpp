@@ -198,8 +198,8 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
 }
 
 /// True when an axis with known position must have moved by more than kVisible while its counter
-/// changed by at most kFlicker_counts. The distance is a lower bound: from rest, smallest gain, 1.5 times the friction, largest force of
-/// the load.
+/// changed by at most kFlicker_counts. The distance is a lower bound: from rest, smallest gain, 1.5 times the
+/// friction, largest force of the load.
 bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckParameters& axis,
                        const History& history, std::size_t i) {
   constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
