@@ -246,7 +246,7 @@ double unexplained_v(const LastLineParameters& parameters, const CheckInput& inp
   if (history.size() < age + remembered + 2) return 0;
   const double v = speed(parameters, input, i, age);
   const double side = v > 0 ? 1 : -1;
-  // After a reversal only the speed gained from standstill counts: friction can explain the stop.
+  // After a reversal, only the increase from standstill counts, because friction explains the stop.
   const double before = std::max(side * speed(parameters, input, i, age + span), 0.0);
   double gained = (std::abs(v) - before) / seconds(parameters, input, age, age + span);
   double most_v = side * history[age].observation.applied_v[i];

@@ -35,7 +35,7 @@ void loop_paced(Component& component) {
   }
 }
 
-/// Ends the turn when the loop ends, normally or by an exception: then no thread runs the component any more.
+/// Ends the turn when the loop ends, normally or by an exception: after that, no thread runs the component.
 struct EndOfTurn {
   Turn& turn;
   ~EndOfTurn() { turn.end(); }

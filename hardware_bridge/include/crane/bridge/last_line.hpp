@@ -81,9 +81,9 @@ struct AxisCheckParameters : control::DriveLimits {
 
 struct LastLineParameters {
   double period_s = 0.01;
-  std::uint64_t stale_after_ticks = 5;  ///< age of the newest command that stops the crane
+  std::uint64_t stale_after_ticks = 5;  ///< the crane stops when the newest command is this old
   std::array<AxisCheckParameters, kDrives> axis{};
-  double swing_limit_rad = 1.05;     ///< above the limit of the supervisor, which reacts first
+  double swing_limit_rad = 1.05;     ///< larger than the supervisor's limit: the supervisor reacts first
   double swing_rate_max_radps = 10;  ///< a larger rate cannot be a motion of the load
   std::array<bool, 2> swing_present{};
 };

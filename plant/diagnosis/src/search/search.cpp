@@ -158,7 +158,8 @@ class Search {
     accept_one_of(refit_likeliest());
   }
 
-  /// With fewer blocks, sign flips do not test the residual of a hypothesis with effects.
+  /// With fewer blocks, the sign-flip test of a hypothesis with effects is unreliable, and the second
+  /// hypothesis of the beam is always extended.
   static constexpr std::size_t kFewBlocks = 60;
 
   [[nodiscard]] double share_done(std::size_t size, std::size_t i) const {

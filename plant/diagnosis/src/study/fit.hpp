@@ -18,7 +18,7 @@ namespace crane::diagnosis {
 [[nodiscard]] Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat,
                          const Evaluation& near);
 
-/// The fit at the minimum of the loss near its values.
+/// Continues the fit until a round gains less than kLeastGainOfVerdict.
 [[nodiscard]] Fitted converged(const WhitenedData& data, Fitted fitted);
 
 }  // namespace crane::diagnosis

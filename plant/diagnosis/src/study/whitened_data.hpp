@@ -5,7 +5,7 @@
 
 namespace crane::diagnosis {
 
-/// Whitened with nuisance parameters, which also contain inaccuracies of the rig file. Immutable.
+/// Training data whitened with one noise model; also holds the fitted inaccuracies of the rig file. Immutable.
 class WhitenedData {
  public:
   /// @param study outlives this object
