@@ -5,7 +5,7 @@
 
 namespace crane::diagnosis {
 
-/// Training data whitened with one noise model; also holds the fitted inaccuracies of the rig file. Immutable.
+/// Training data whitened with one noise model, with the fitted inaccuracies of the rig file. Immutable.
 class WhitenedData {
  public:
   /// @param study outlives this object
