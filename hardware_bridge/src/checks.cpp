@@ -96,8 +96,8 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   });
 }
 
-/// True when a command moves an axis that is beyond a hard limit, or that cannot stop before one: x
-/// +- (v t_brake + v^2 / 2a).
+/// True when a command moves an axis that is beyond a hard limit, or that cannot stop before one.
+/// Stopping point: x +- (v t_brake + v^2 / 2a).
 bool position(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
@@ -187,7 +187,7 @@ bool unmoved(const History& history, std::size_t i, std::size_t newer, std::size
 }
 
 /// Number of consecutive ticks, up to this tick, in which the axis was free, the voltage had its present
-/// sign, and the counter did not change.
+/// sign, and the counter was within kFlicker_counts of its present value.
 std::size_t ticks_without_motion(const History& history, std::size_t i) {
   const double side = history[0].observation.applied_v[i] > 0 ? 1 : -1;
   std::size_t ticks = 0;
@@ -197,9 +197,9 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
   return ticks;
 }
 
-/// True when an axis with known position must have moved by more than kVisible without a change of its
-/// counter. The distance is a lower bound: from rest, smallest gain, 1.5 times the friction, largest force of
-/// the load.
+/// True when an axis with known position must have moved by more than kVisible while its counter changed by
+/// at most kFlicker_counts. The distance is a lower bound: from rest, smallest gain, 1.5 times the friction,
+/// largest force of the load.
 bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckParameters& axis,
                        const History& history, std::size_t i) {
   constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
@@ -216,8 +216,8 @@ bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckPara
   return distance > kVisible;
 }
 
-/// The voltage exceeds friction and load, the brake is open, and the counter does not change: the encoder is
-/// dead, or the brake has not opened.
+/// The voltage exceeds friction and load, the brake is open, and the counter changes by at most
+/// kFlicker_counts: the encoder is dead, or the brake has not opened.
 bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   constexpr double kWindow_s = 0.1;
   const auto window = static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s));
@@ -246,7 +246,7 @@ double unexplained_v(const LastLineParameters& parameters, const CheckInput& inp
   if (history.size() < age + remembered + 2) return 0;
   const double v = speed(parameters, input, i, age);
   const double side = v > 0 ? 1 : -1;
-  // After a reversal only the speed gained from standstill counts: friction can explain the stop.
+  // After a reversal, only the speed gained from standstill counts, because friction can explain the stop.
   const double before = std::max(side * speed(parameters, input, i, age + span), 0.0);
   double gained = (std::abs(v) - before) / seconds(parameters, input, age, age + span);
   double most_v = side * history[age].observation.applied_v[i];

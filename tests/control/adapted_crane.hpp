@@ -65,8 +65,8 @@ struct Target {
 
 struct MoveResult {
   double settled_s = 0;    ///< from the request; the length of the window: not settled
-  double late_speed = 0;   ///< largest speed of an axis in the last 3 s, m/s or rad/s
-  double late_travel = 0;  ///< sum of |displacement| of the worse axis in the last 3 s
+  double late_speed = 0;   ///< largest speed of an axis in the last 4 s, m/s or rad/s
+  double late_travel = 0;  ///< sum of |displacement| of the worse axis in the last 4 s, m or rad
   int late_reversals = 0;  ///< of the worse axis in the last 4 s, beyond 1 mm/s or 1 mrad/s
 };
 

@@ -200,8 +200,8 @@ Grid grid_of(const std::vector<double>& time_s) {
     return std::abs(step - grid.row_s) <= kOnGridTolerance * grid.row_s;
   });
   if (!uniform) grid.row_s = period_near(steps, grid.row_s);
-  constexpr double kFastest_s = 1e-6;  // faster is refused
-  if (!(grid.row_s > kFastest_s)) return {grid.row_s, grid.row_s, 1};
+  constexpr double kShortestRow_s = 1e-6;  // avoids a division by 0; RunSplitter refuses rows below 1e-5 s
+  if (!(grid.row_s > kShortestRow_s)) return {grid.row_s, grid.row_s, 1};
   grid.rows_in_period = std::max<std::size_t>(1, static_cast<std::size_t>(kFinest_s / grid.row_s + 1e-3));
   grid.period_s = static_cast<double>(grid.rows_in_period) * grid.row_s;
   return grid;
