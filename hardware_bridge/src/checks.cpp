@@ -8,7 +8,7 @@
 namespace crane::bridge {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kRounding_v = 1e-9;
 
 bool requests_motion(const CommandView& command, std::size_t axis) {
   return command.brake_release[axis] || command.drive_v[axis] != 0;
@@ -57,7 +57,7 @@ bool command_range(const LastLineParameters& parameters, const CheckInput& input
   if (input.command == nullptr) return false;
   for (std::size_t i = 0; i < kDrives; ++i)
     if (std::isfinite(input.command->drive_v[i]) &&
-        std::abs(input.command->drive_v[i]) > parameters.axis[i].volt_limit_v + kRounding)
+        std::abs(input.command->drive_v[i]) > parameters.axis[i].volt_limit_v + kRounding_v)
       return true;
   return false;
 }
@@ -71,7 +71,7 @@ bool command_rate(const LastLineParameters& parameters, const CheckInput& input)
     const bool towards_zero = u * last >= 0 && std::abs(u) <= std::abs(last);
     const double most =
         parameters.axis[i].volt_rate_limit_vps * parameters.period_s * static_cast<double>(ticks);
-    if (std::isfinite(u) && !towards_zero && std::abs(u - last) > most + kRounding) return true;
+    if (std::isfinite(u) && !towards_zero && std::abs(u - last) > most + kRounding_v) return true;
   }
   return false;
 }
@@ -87,7 +87,7 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     if (!history[0].observation.unknown[i] || !requests_motion(*input.command, i)) return false;
     if (!input.command->homing[i] ||
-        !(std::abs(input.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding))
+        !(std::abs(input.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding_v))
       return true;
     if (history.size() <= ticks) return false;
     const double distance = history[0].observation.coordinate[i] - history[ticks].observation.coordinate[i];

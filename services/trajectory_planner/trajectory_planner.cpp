@@ -162,7 +162,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   }
 
   /// With zones, a new move waits until the reference rests on the accepted path of the previous move. The
-  /// supervisor has searched from the measured position, but both places are connected: a path exists.
+  /// supervisor has searched a path from the measured position. The accepted path connects this position with
+  /// the resting point; therefore a path from the resting point exists.
   void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
                      std::uint64_t tick) {
     constexpr double kLongest_s = 20;  // bounded, because friction may hold an axis away from its reference

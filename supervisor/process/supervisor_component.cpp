@@ -136,7 +136,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] static double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
   [[nodiscard]] std::int64_t period_ns() const { return std::llround(limits_.period_s * 1e9); }
 
-  /// Puts the contradiction into the last status of this process.
+  /// Sets the input with which the last status of this process names the contradiction.
   void note_foreign(TickInput& input) const {
     if (echo_.voltage_contradicts())
       input.foreign_command = true;

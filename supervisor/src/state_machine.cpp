@@ -112,8 +112,8 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
   if (m.state != State::run) return;
   m.move_began = m.move_began || in.reference_moving;
-  // The process does not reach this time: OperatorRequests::is_moving() ends such a move 0.2 s
-  // after its acceptance.
+  // For callers without OperatorRequests. In the process, OperatorRequests::is_moving() ends such a move
+  // earlier, 0.2 s after its acceptance.
   const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.longest_wait_for_motion_s;
   if ((m.move_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);

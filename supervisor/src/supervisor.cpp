@@ -26,7 +26,7 @@ double advance_homing(const Limits& limits, TickMemory& memory) {
 }
 
 /// @return true when a brake that is commanded closed does not hold its axis, or does not report
-///   closed in time. In BOOT and SELFTEST, every tick replaces the stored position and speed.
+///   closed in time. In BOOT and SELFTEST, every tick restarts the check.
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
