@@ -64,7 +64,7 @@ TEST(TwinDocument, ShowsTheTableOfTheCauses) {
   EXPECT_EQ(text.substr(begin, text.find("<!-- end -->", begin) - begin), twin::cause_table());
 }
 
-TEST(Causes, AreTermsOfTheModelWithTheParameterThatHasTheSize) {
+TEST(Causes, NameATermOfTheModelAndItsSizeParameter) {
   for (const auto& kind : twin::cause_kinds()) {
     if (kind.parameter == nullptr) continue;
     const auto* term = plant::find_term(kind.name);
@@ -73,7 +73,7 @@ TEST(Causes, AreTermsOfTheModelWithTheParameterThatHasTheSize) {
   }
 }
 
-TEST(Causes, WithReferenceSizesAreTheHypothesesOfATowerCrane) {
+TEST(Causes, WithReferenceSizesHaveHypothesesOnATower) {
   std::set<std::string> hypotheses, with_sizes;
   for (const auto& hypothesis : twin::hypotheses_for(rig())) hypotheses.insert(hypothesis.cause);
   for (const auto& kind : twin::cause_kinds())

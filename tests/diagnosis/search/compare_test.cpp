@@ -36,14 +36,14 @@ struct Compared : testing::Test {
   Fitted base, fitted;
 };
 
-TEST_F(Compared, AnEffectOfAllBlocksIsNotOutvotedByOneSlip) {
+TEST_F(Compared, OneOutlierBlockDoesNotRejectACause) {
   for (double& block : fitted.deviance) block -= 2;
   fitted.deviance[35] -= 120, fitted.deviance[44] += 170;
   EXPECT_TRUE(is_possible());
   EXPECT_TRUE(is_accepted());
 }
 
-TEST_F(Compared, OneSlipLessIsNotAnEffect) {
+TEST_F(Compared, OneBetterBlockIsNotAccepted) {
   fitted.deviance[35] -= 2000;
   EXPECT_FALSE(is_possible());
   EXPECT_FALSE(is_accepted());
@@ -129,7 +129,7 @@ TEST_F(Compared, AnAmountWhoseIntervalContainsZeroIsNotSignificant) {
   EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the second amount
 }
 
-TEST_F(Compared, ARarerCauseMustBeLikelierThanItsMoreCommonTwinByAMargin) {
+TEST_F(Compared, ARareCauseNeedsAMarginOverTheCommonCause) {
   effect.cause = "drive_inertia";
   other.cause = "motor_gain";
   effect.axis = other.axis = "trolley";
@@ -225,14 +225,14 @@ TEST_F(Rivals, AHypothesisThatImprovesEveryBlockWinsTheVotes) {
   EXPECT_EQ(votes_for_rival(), 0);
 }
 
-TEST_F(Rivals, AHypothesisThatImprovesAndWorsensEquallyManyBlocksLeavesTheVotesOpen) {
+TEST_F(Rivals, EquallyManyBetterAndWorseBlocksSplitTheVote) {
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += i % 2 == 0 ? -4 : 4;
   fitted.deviance[0] -= 4;
   EXPECT_GT(votes_for_rival(), 0.2);
 }
 
 /// 0.25 % and 2.5 % of the gain.
-TEST_F(Rivals, ShareTheVoteIfTheyDifferByLessThanTheTermsAreExact) {
+TEST_F(Rivals, OfNearlyEqualDevianceShareTheVote) {
   for (double& block : fitted.deviance) block -= 4;
   rival.deviance = fitted.deviance;
   for (double& block : rival.deviance) block += 0.01;
