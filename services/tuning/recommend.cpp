@@ -13,8 +13,8 @@
 namespace crane::tuning {
 namespace {
 
-constexpr std::size_t kTested = 4;  // number of entries whose margins are computed together
-constexpr double kDuration_s = 15;  // duration of a maneuver; a law that needs longer is not recommended
+constexpr std::size_t kGroupSize = 4;  // number of entries whose margins are computed together
+constexpr double kDuration_s = 15;     // duration of a maneuver; a law that needs longer is not recommended
 
 /// Calls work(0) ... work(count - 1) on several threads. @throws the first exception of work
 void parallel(std::size_t count, unsigned processors, const std::function<void(std::size_t)>& work) {
@@ -64,9 +64,9 @@ class Recommender {
   Recommendation work() {
     rank();
     const auto settled = counts(result_)[0];
-    for (std::size_t first = 0; first < settled; first += kTested) {
+    for (std::size_t first = 0; first < settled; first += kGroupSize) {
       if (result_.winner && mean_s(first) >= predicted_s(*result_.winner)) break;
-      test(first, std::min(first + kTested, settled));
+      test(first, std::min(first + kGroupSize, settled));
     }
     return std::move(result_);
   }
