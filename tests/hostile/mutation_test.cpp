@@ -1,6 +1,6 @@
 /// Sends mutated RTPS packets to each process of a running stack and to an observer, per vendor. Permitted:
 /// the process continues, or the crane stops. Forbidden: motion, growing memory, a process that hangs.
-/// CRANE_MUTATIONS=10000000 sets the number of packets; the default is kMutations within kMost.
+/// CRANE_MUTATIONS=10000000 sets the number of packets; default: kMutations packets, for at most kMost.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
