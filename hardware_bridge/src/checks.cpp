@@ -8,7 +8,7 @@
 namespace crane::bridge {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kRounding_v = 1e-9;
 
 bool requests_motion(const CommandView& command, std::size_t axis) {
   return command.brake_release[axis] || command.drive_v[axis] != 0;
@@ -57,7 +57,7 @@ bool command_range(const LastLineParameters& parameters, const CheckInput& input
   if (input.command == nullptr) return false;
   for (std::size_t i = 0; i < kDrives; ++i)
     if (std::isfinite(input.command->drive_v[i]) &&
-        std::abs(input.command->drive_v[i]) > parameters.axis[i].volt_limit_v + kRounding)
+        std::abs(input.command->drive_v[i]) > parameters.axis[i].volt_limit_v + kRounding_v)
       return true;
   return false;
 }
@@ -71,7 +71,7 @@ bool command_rate(const LastLineParameters& parameters, const CheckInput& input)
     const bool towards_zero = u * last >= 0 && std::abs(u) <= std::abs(last);
     const double most =
         parameters.axis[i].volt_rate_limit_vps * parameters.period_s * static_cast<double>(ticks);
-    if (std::isfinite(u) && !towards_zero && std::abs(u - last) > most + kRounding) return true;
+    if (std::isfinite(u) && !towards_zero && std::abs(u - last) > most + kRounding_v) return true;
   }
   return false;
 }
@@ -87,7 +87,7 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     if (!history[0].observation.unknown[i] || !requests_motion(*input.command, i)) return false;
     if (!input.command->homing[i] ||
-        !(std::abs(input.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding))
+        !(std::abs(input.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding_v))
       return true;
     if (history.size() <= ticks) return false;
     const double distance = history[0].observation.coordinate[i] - history[ticks].observation.coordinate[i];
@@ -96,9 +96,9 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   });
 }
 
-/// True when a command moves an axis that is beyond a hard limit, or that cannot stop before one: x
-/// +- (v t_brake + v^2 / 2a).
-bool position(const LastLineParameters& parameters, const CheckInput& input) noexcept {
+/// True when a command moves an axis that is beyond a hard limit, or that cannot stop before one.
+/// Stopping point: x +- (v t_brake + v^2 / 2a).
+bool position_fails(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
     if (!requests_motion(*input.command, i) || (*input.history)[0].observation.unknown[i]) return false;
@@ -118,12 +118,13 @@ bool overspeed(const LastLineParameters& parameters, const CheckInput& input) no
   });
 }
 
-bool swing(const LastLineParameters& parameters, const CheckInput& input) noexcept {
+bool swing_fails(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
-  bool moving = false;
-  for (std::size_t i = 0; i < kDrives; ++i) moving = moving || requests_motion(*input.command, i);
+  bool motion_commanded = false;
+  for (std::size_t i = 0; i < kDrives; ++i)
+    motion_commanded = motion_commanded || requests_motion(*input.command, i);
   for (std::size_t i = 0; i < parameters.swing_present.size(); ++i)
-    if (moving && parameters.swing_present[i] &&
+    if (motion_commanded && parameters.swing_present[i] &&
         !(std::abs((*input.history)[0].observation.coordinate[kDrives + i]) <= parameters.swing_limit_rad))
       return true;
   return false;
@@ -203,21 +204,21 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
 bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckParameters& axis,
                        const History& history, std::size_t i) {
   constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
-  double distance = 0, speed = 0;
+  double least_distance = 0, least_speed = 0;
   for (std::size_t age = ticks_without_motion(history, i); age-- > 0;) {
     const double net_v =
         std::max(std::abs(history[age].observation.applied_v[i]) - axis.certain_motion_v, 0.0);
     if (axis.lag_s > 0)
-      speed += (axis.gain_low * net_v - speed) * std::min(parameters.period_s / axis.lag_s, 1.0);
+      least_speed += (axis.gain_low * net_v - least_speed) * std::min(parameters.period_s / axis.lag_s, 1.0);
     else
-      speed += axis.gain_low * net_v * parameters.period_s;
-    distance += speed * parameters.period_s;
+      least_speed += axis.gain_low * net_v * parameters.period_s;
+    least_distance += least_speed * parameters.period_s;
   }
-  return distance > kVisible;
+  return least_distance > kVisible;
 }
 
-/// The voltage exceeds friction and load, the brake is open, and the counter does not change: the encoder is
-/// dead, or the brake has not opened.
+/// The voltage exceeds friction and load, the brake is open, and the counter changes by at most
+/// kFlicker_counts: the encoder is dead, or the brake has not opened.
 bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   constexpr double kWindow_s = 0.1;
   const auto window = static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s));
@@ -283,9 +284,9 @@ constexpr std::array kChecks{Check{Reason::second_writer, second_writer},
                              Check{Reason::not_homed, not_homed},
                              Check{Reason::encoder_jump, encoder_jump},
                              Check{Reason::lost_counts, lost_counts},
-                             Check{Reason::position, position},
+                             Check{Reason::position, position_fails},
                              Check{Reason::speed, overspeed},
-                             Check{Reason::swing, swing},
+                             Check{Reason::swing, swing_fails},
                              Check{Reason::braked_motion, braked_motion},
                              Check{Reason::encoder_frozen, encoder_frozen},
                              Check{Reason::drive_response, drive_response}};

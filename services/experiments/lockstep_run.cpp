@@ -12,28 +12,29 @@ namespace crane::experiments {
 namespace {
 
 using experiment::Scenario;
-using Collected = runtime::TickJoin<msg::State, msg::Reference, msg::Contribution, msg::Contribution,
-                                    msg::Demand, msg::Command, msg::SupervisorStatus>;
+using TickSamples = runtime::TickJoin<msg::State, msg::Reference, msg::Contribution, msg::Contribution,
+                                      msg::Demand, msg::Command, msg::SupervisorStatus>;
 
 // Ticks per advance request: less than half the history depth of the loop topics (128).
 constexpr std::uint64_t kChunk_ticks = 50;
 constexpr runtime::JoinPolicy kEveryTick{.in_order = true, .depth = 256};
-constexpr std::int64_t kPatience_ns = 10'000'000'000;
+constexpr std::int64_t kTimeout_ns = 10'000'000'000;
 constexpr double kLongestPreparation_s = 20;
 
-Collected collect_from(bus::Bus& bus) {
+TickSamples collect_from(bus::Bus& bus) {
   const auto input = runtime::loop_endpoint(runtime::Clock::lockstep);
-  return Collected{kEveryTick,
-                   runtime::loop_reader(bus, topics::state, input),
-                   runtime::loop_reader(bus, topics::reference, input),
-                   runtime::loop_reader(bus, topics::tracking, input),
-                   runtime::loop_reader(bus, topics::anti_swing, input),
-                   runtime::loop_reader(bus, topics::demand, input),
-                   runtime::loop_reader(bus, topics::command, input),
-                   runtime::loop_reader(bus, topics::supervisor, input)};
+  return TickSamples{kEveryTick,
+                     runtime::loop_reader(bus, topics::state, input),
+                     runtime::loop_reader(bus, topics::reference, input),
+                     runtime::loop_reader(bus, topics::tracking, input),
+                     runtime::loop_reader(bus, topics::anti_swing, input),
+                     runtime::loop_reader(bus, topics::demand, input),
+                     runtime::loop_reader(bus, topics::command, input),
+                     runtime::loop_reader(bus, topics::supervisor, input)};
 }
 
-/// Topics whose samples are read as structs (Collected). Samples of all other loop topics are read as bytes.
+/// Topics whose samples are read as structs (TickSamples). Samples of all other loop topics are read as
+/// bytes.
 const std::array kCollected{&topics::state.description,     &topics::reference.description,
                             &topics::tracking.description,  &topics::anti_swing.description,
                             &topics::demand.description,    &topics::command.description,
@@ -92,18 +93,18 @@ class LockstepRun {
         others_{other_topics(bus, components, rig.design)} {}
 
   RunOutcome execute() {
-    until([this] { return operator_.listeners() >= kListeners && operator_.answerers() >= kListeners; },
-          "the processes of the stack to listen");
+    wait_until([this] { return operator_.listeners() >= kListeners && operator_.answerers() >= kListeners; },
+               "the processes of the stack to listen");
     const auto begin_ns = runtime::monotonic_ns();
     prepare();
-    outcome_.hold_tick = frontier_ + 1;
+    outcome_.hold_tick = requested_tick_ + 1;
     schedule_actions();
     const auto end = outcome_.hold_tick + ticks(scenario_.end_s());
-    while (frontier_ < end && !stopped()) advance_to(std::min(frontier_ + kChunk_ticks, end));
+    while (requested_tick_ < end && !stopped()) advance_to(std::min(requested_tick_ + kChunk_ticks, end));
     check_verdicts();
     outcome_.completed = !stopped();
     if (stopped()) outcome_.stopped_because = supervisor::name_of(static_cast<supervisor::Cause>(cause_));
-    outcome_.last_tick = frontier_;
+    outcome_.last_tick = requested_tick_;
     outcome_.wall_s = static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9;
     return outcome_;
   }
@@ -117,14 +118,14 @@ class LockstepRun {
   [[nodiscard]] bool stopped() const { return state_ >= crane_STATE_STOP_C1; }
 
   template <class Condition>
-  void until(Condition condition, const std::string& what) {
-    auto deadline_ns = runtime::monotonic_ns() + kPatience_ns;
+  void wait_until(Condition condition, const std::string& what) {
+    auto deadline_ns = runtime::monotonic_ns() + kTimeout_ns;
     while (!condition()) {
       pump_();
-      if (collect()) deadline_ns = runtime::monotonic_ns() + kPatience_ns;
+      if (collect()) deadline_ns = runtime::monotonic_ns() + kTimeout_ns;
       operator_.receive();
       if (runtime::monotonic_ns() > deadline_ns)
-        throw RunError("waited " + std::to_string(kPatience_ns / 1'000'000'000) + " s for " + what);
+        throw RunError("waited " + std::to_string(kTimeout_ns / 1'000'000'000) + " s for " + what);
       if (runtime::stop_requested()) throw RunError("interrupted");
     }
   }
@@ -160,13 +161,13 @@ class LockstepRun {
 
   void advance_to(std::uint64_t tick) {
     operator_.send({.kind = crane_REQUEST_ADVANCE, .until_tick = tick});
-    frontier_ = tick;
-    until([this, tick] { return collected_tick_ == tick; }, "tick " + std::to_string(tick));
+    requested_tick_ = tick;
+    wait_until([this, tick] { return collected_tick_ == tick; }, "tick " + std::to_string(tick));
   }
 
   void advance_by(std::uint64_t ticks) {
-    for (const auto end = frontier_ + ticks; frontier_ < end;)
-      advance_to(std::min(frontier_ + kChunk_ticks, end));
+    for (const auto end = requested_tick_ + ticks; requested_tick_ < end;)
+      advance_to(std::min(requested_tick_ + kChunk_ticks, end));
   }
 
   /// Waits for the self-test, resets and arms, so that the brakes open.
@@ -174,21 +175,21 @@ class LockstepRun {
     const auto longest = ticks(kLongestPreparation_s);
     const auto wait_for_state = [&](std::initializer_list<crane_SupervisorState> wanted) {
       while (std::find(wanted.begin(), wanted.end(), state_) == wanted.end()) {
-        if (frontier_ > longest)
+        if (requested_tick_ > longest)
           throw RunError(std::string{"the supervisor stays in "} +
                          supervisor::name_of(static_cast<supervisor::State>(state_)) + " because of " +
                          supervisor::name_of(static_cast<supervisor::Cause>(cause_)));
-        advance_to(frontier_ + kChunk_ticks);
+        advance_to(requested_tick_ + kChunk_ticks);
         check_verdicts();
       }
     };
     constexpr double kCausesClear_s = 1.1;  // a reset needs causes that have been inactive for a second
     advance_by(ticks(kCausesClear_s));
     wait_for_state({crane_STATE_LOCKED});
-    request({.kind = crane_REQUEST_RESET}, {crane_SOURCE_SUPERVISOR});
+    request({.kind = crane_REQUEST_RESET}, crane_SOURCE_SUPERVISOR);
     advance_by(ticks(kCausesClear_s));
     wait_for_state({crane_STATE_READY});
-    request({.kind = crane_REQUEST_ARM}, {crane_SOURCE_SUPERVISOR});
+    request({.kind = crane_REQUEST_ARM}, crane_SOURCE_SUPERVISOR);
     // With wind or a tilted jib, the anti-swing law moves the axes at once. The state can then be RUN without
     // a move.
     wait_for_state({crane_STATE_HOLD, crane_STATE_RUN});
@@ -203,45 +204,44 @@ class LockstepRun {
         wanted.selected[i] = move.target[i].has_value();
         wanted.target[i] = move.target[i].value_or(0);
       }
-      request(wanted, {crane_SOURCE_SUPERVISOR});
+      request(wanted, crane_SOURCE_SUPERVISOR);
     }
     for (const auto& excitation : scenario_.excitations) {
       stack::OperatorRequest wanted = stack::request_to_follow(excitation.reference);
       wanted.apply_tick = outcome_.hold_tick + ticks(excitation.at_s);
-      request(wanted, {crane_SOURCE_SUPERVISOR});
+      request(wanted, crane_SOURCE_SUPERVISOR);
     }
     for (const auto& kick : scenario_.kicks) {
       stack::OperatorRequest wanted{.kind = crane_REQUEST_KICK,
                                     .kick_radps = {kick.radial_radps, kick.tangential_radps}};
       wanted.apply_tick = outcome_.hold_tick + ticks(kick.at_s);
-      request(wanted, {clock_master_});
+      request(wanted, clock_master_);
     }
   }
 
-  /// Sends a request for an exact tick and waits until all `sources` have confirmed it. The first of
-  /// `sources` decides about the request.
-  void request(stack::OperatorRequest wanted, std::initializer_list<crane_Source> sources) {
-    wanted.apply_tick = std::max(wanted.apply_tick, frontier_ + 1);
+  /// Sends a request for an exact tick and waits until `decides` has confirmed it. `decides` accepts or
+  /// refuses the request in its tick.
+  void request(stack::OperatorRequest wanted, crane_Source decides) {
+    wanted.apply_tick = std::max(wanted.apply_tick, requested_tick_ + 1);
     const auto id = operator_.send(wanted);
     auto sent = operator_.last_sent();
     bus::seal(topics::request.description, &sent, bus_.source, bus_.epoch, bus_.messages_version);
     log_.receive(topics::request, sent);
-    for (const auto source : sources)
-      until([&] { return operator_.take_reply(id, source, true).has_value(); },
-            "a confirmation of a request");
-    verdicts_.push_back({id, *sources.begin(), wanted.apply_tick});
+    wait_until([&] { return operator_.take_reply(id, decides, true).has_value(); },
+               "a confirmation of a request");
+    verdicts_.push_back({id, decides, wanted.apply_tick});
   }
 
   /// Checks the replies to the requests whose tick has passed.
   void check_verdicts() {
     for (const auto& expected : verdicts_) {
-      if (expected.tick > frontier_) continue;
+      if (expected.tick > requested_tick_) continue;
       std::optional<msg::Reply> reply;
-      until([&] { return (reply = operator_.take_reply(expected.id, expected.source)).has_value(); },
-            "the answer to a request");
+      wait_until([&] { return (reply = operator_.take_reply(expected.id, expected.source)).has_value(); },
+                 "the answer to a request");
       if (!reply->accepted && !stopped()) throw RunError(std::string{"refused: "} + reply->reason);
     }
-    std::erase_if(verdicts_, [this](const Verdict& expected) { return expected.tick <= frontier_; });
+    std::erase_if(verdicts_, [this](const Verdict& expected) { return expected.tick <= requested_tick_; });
   }
 
   struct Verdict {
@@ -256,13 +256,13 @@ class LockstepRun {
   TickLog& log_;
   bus::Options bus_;
   stack::OperatorClient operator_;
-  Collected collected_;
+  TickSamples collected_;
   std::vector<OtherTopic> others_;
   std::vector<OtherSample> other_samples_;
   RunOutcome outcome_;
   std::vector<Verdict> verdicts_;
   std::optional<std::uint64_t> collected_tick_;
-  std::uint64_t frontier_ = 0;
+  std::uint64_t requested_tick_ = 0;
   crane_Source clock_master_ = crane_SOURCE_PLANT;  ///< or SOURCE_BRIDGE; executes kicks
   crane_SupervisorState state_ = crane_STATE_BOOT;
   crane_Cause cause_ = crane_CAUSE_NONE;

@@ -115,8 +115,15 @@ void FaultTimeline::add_event(const Sample& sample, const msg::Event& event) {
   constexpr std::int64_t kNoticed_ns = 60'000'000;
   const std::int64_t earlier_ns = std::string_view{event.code} == "process_ended" ? kNoticed_ns : 0;
   const bool live = std::abs(sample.log_time_ns - sample.source_time_ns) < kLive_ns;
-  put({(live ? sample.log_time_ns : sample.source_time_ns) - earlier_ns, event.header.tick, kind, event.node,
-       event.code, event.what, event.remedy, std::string{event.node} + "/" + event.code, true});
+  put({.at_ns = (live ? sample.log_time_ns : sample.source_time_ns) - earlier_ns,
+       .tick = event.header.tick,
+       .kind = kind,
+       .from = event.node,
+       .what = event.code,
+       .explanation = event.what,
+       .remedy = event.remedy,
+       .key = std::string{event.node} + "/" + event.code,
+       .event = true});
 }
 
 void FaultTimeline::put(Note note) {
@@ -174,10 +181,13 @@ void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) 
     const bool silent = heard.silent(now_ns);
     if (silent == std::exchange(silent_[number], silent) || !silent) continue;
     const bool orderly = heard.status.phase == crane_PHASE_STOPPING;
-    put({heard.log_time_ns, heard.status.header.tick, orderly ? Note::Kind::warning : Note::Kind::fault,
-         heard.status.name, "process_silent",
-         orderly ? "the process has ended" : "the last sample of the process arrived here",
-         "read the output of `crane up`, then restart the process", ""});
+    put({.at_ns = heard.log_time_ns,
+         .tick = heard.status.header.tick,
+         .kind = orderly ? Note::Kind::warning : Note::Kind::fault,
+         .from = heard.status.name,
+         .what = "process_silent",
+         .explanation = orderly ? "the process has ended" : "the last sample of the process arrived here",
+         .remedy = "read the output of `crane up`, then restart the process"});
   }
 }
 

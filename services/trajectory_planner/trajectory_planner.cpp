@@ -37,7 +37,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
         planning_ticks_{static_cast<std::uint64_t>(
             std::lround(context.rig.planning.planning_time_s / context.rig.period_s))},
         period_s_{context.rig.period_s},
-        steps_{context.controller.reference == control::ReferenceShape::step},
+        uses_step_reference_{context.controller.reference == control::ReferenceShape::step},
         rig_{context.rig},
         path_space_{configuration::path_space_of(context.rig)},
         motion_{context.rig, context.controller.reference} {
@@ -66,9 +66,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       mode_ = status->mode;
       homing_ = status->homing[0] || status->homing[1] || status->homing[2];
       homing_speed_ = runtime::values(status->homing_speed);
-      if (status->header.epoch != supervisor_epoch_) known_moves_.reset();
+      if (status->header.epoch != supervisor_epoch_) last_seen_move_.reset();
       supervisor_epoch_ = status->header.epoch;
-      leave_obsolete_moves(status->move);
+      discard_obsolete_move(status->move);
     }
     if (missing_statuses_ == (stopping_ ? longest_stop_ticks_ : stale_after_ticks_)) lose_supervisor();
     withheld_ = withheld_ && (status == nullptr || follows_reference(status->state));
@@ -88,7 +88,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       if (status != nullptr) {
         start_if_new(status->move, measured, next);
         begin_waiting(measured, next);
-        begin_pending(next);
+        start_planned_move(next);
         deflection_ = runtime::values(status->jog_deflection);
       }
       motion_.drive(deflection_, next);
@@ -113,17 +113,17 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
                      "(`crane doctor --net`)");
     supervisor_ = crane_STATE_BOOT;
     stopping_ = false;
-    known_moves_.reset();
+    last_seen_move_.reset();
   }
 
   /// Discards a move when the supervisor is not in RUN. The supervisor enters RUN with an accepted move and
   /// leaves RUN when the crane stops or the planner does not begin: a planner that was paused must not
   /// execute the move after the next arming. Moves of unknown age are also obsolete: those of the first
   /// status of a supervisor, and of the first status after a gap.
-  void leave_obsolete_moves(const msg::AcceptedMove& move) {
-    if (known_moves_ && (supervisor_ == crane_STATE_RUN || move.number <= *known_moves_)) return;
-    const bool dropped = known_moves_ && move.number > *known_moves_;
-    known_moves_ = move.number;
+  void discard_obsolete_move(const msg::AcceptedMove& move) {
+    if (last_seen_move_ && (supervisor_ == crane_STATE_RUN || move.number <= *last_seen_move_)) return;
+    const bool dropped = last_seen_move_ && move.number > *last_seen_move_;
+    last_seen_move_ = move.number;
     if (dropped)
       node().warning("move_obsolete", "an accepted move was not begun in time and will not be executed",
                      "repeat the move");
@@ -131,8 +131,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
 
   /// Executes the last move that the supervisor has accepted.
   void start_if_new(const msg::AcceptedMove& move, const control::Measurement& measured, std::uint64_t tick) {
-    if (!known_moves_ || move.number <= *known_moves_) return;
-    known_moves_ = move.number;
+    if (!last_seen_move_ || move.number <= *last_seen_move_) return;
+    last_seen_move_ = move.number;
     drop_waiting_moves();
     if (move.kind == crane_REQUEST_MOVE && !is_inside_limits(rig_, move)) {
       node().error("move_invalid", "the accepted move has a target outside the limits, and is not executed",
@@ -156,19 +156,20 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   void start_straight(const MoveTarget& move, std::uint64_t tick) {
     if (const auto problem =
             worker_ && mode_ != crane_MODE_MAINTENANCE ? motion_.plan_for(move, tick) : std::nullopt)
-      pending_ = Pending{move, *problem, tick + planning_ticks_, worker_->ask(*problem)};
+      pending_ = MoveAwaitingPlan{move, *problem, tick + planning_ticks_, worker_->ask(*problem)};
     else
       motion_.start(move, tick);
   }
 
   /// With zones, a new move waits until the reference rests on the accepted path of the previous move. The
-  /// supervisor has searched from the measured position, but both places are connected: a path exists.
+  /// supervisor has searched a path from the measured position. The accepted path connects this position with
+  /// the resting point; therefore a path from the resting point exists.
   void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
                      std::uint64_t tick) {
     constexpr double kLongest_s = 20;  // bounded, because friction may hold an axis away from its reference
     (void)motion_.slow_down(tick);
-    waiting_ = Waiting{move.number, target_of(move),
-                       tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
+    waiting_ = MoveAwaitingRest{move.number, target_of(move),
+                                tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
     begin_waiting(measured, tick);
   }
 
@@ -183,7 +184,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       target[i] = move.selected[i] ? move.target[i] : from[i];
     }
     auto path = control::path_to(path_space_, from, target);
-    if (path.outcome == control::PathOutcome::straight && steps_ && !is_free_for_step(from, target))
+    if (path.outcome == control::PathOutcome::straight && uses_step_reference_ &&
+        !is_free_for_step(from, target))
       path = {.outcome = control::PathOutcome::by_waypoints, .points = {{.position = target}}};
     const bool has_path =
         path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::by_waypoints;
@@ -214,7 +216,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   }
 
   /// Begins the move that waits for its plan: with the plan, or with a shaped profile when the plan is late.
-  void begin_pending(std::uint64_t tick) {
+  void start_planned_move(std::uint64_t tick) {
     if (!pending_) return;
     if (!pending_->submitted) pending_->submitted = worker_->ask(pending_->problem);
     if (tick < pending_->begin_tick) return;
@@ -251,7 +253,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   runtime::Output<msg::Reference> output_;
   int stale_after_ticks_, longest_stop_ticks_;
   /// A move that waits for its plan.
-  struct Pending {
+  struct MoveAwaitingPlan {
     MoveTarget target;
     control::PlanProblem problem;
     std::uint64_t begin_tick;
@@ -259,16 +261,16 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   };
   std::uint64_t planning_ticks_;
   std::optional<PlanWorker> worker_;  ///< only for controllers with time-optimal references
-  std::optional<Pending> pending_;
+  std::optional<MoveAwaitingPlan> pending_;
   /// A move that waits until the crane rests.
-  struct Waiting {
+  struct MoveAwaitingRest {
     std::uint64_t number;  ///< AcceptedMove.number
     MoveTarget move;
     std::uint64_t last_tick;
   };
-  std::optional<Waiting> waiting_;
+  std::optional<MoveAwaitingRest> waiting_;
   double period_s_;
-  bool steps_;                  ///< true: the controller uses step references
+  bool uses_step_reference_;    ///< true: the controller uses step references
   plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
   const configuration::Rig& rig_;
   control::PathSpace path_space_;
@@ -284,9 +286,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   bool moving_ = false;                               ///< Reference.moving of the last reference
   crane_RequestKind move_kind_ = crane_REQUEST_MOVE;  ///< of the move that is executed
   bool stopping_ = false, heard_supervisor_ = false;
-  std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
-  std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or obsolete
-  std::uint64_t move_number_ = 0;             ///< number of the move that the reference executes
+  std::uint32_t supervisor_epoch_ = 0;           ///< start-up number of the supervisor that counts the moves
+  std::optional<std::uint64_t> last_seen_move_;  ///< number of the last move that is executed or obsolete
+  std::uint64_t move_number_ = 0;                ///< number of the move that the reference executes
 };
 
 }  // namespace

@@ -12,8 +12,8 @@
 namespace crane::tuning {
 namespace {
 
-constexpr std::size_t kTested = 4;  // number of entries whose margins are computed together
-constexpr double kDuration_s = 15;  // duration of a maneuver; a law that needs longer is not recommended
+constexpr std::size_t kGroupSize = 4;  // number of entries whose margins are computed together
+constexpr double kDuration_s = 15;     // duration of a maneuver; a law that needs longer is not recommended
 
 void add(Entry& entry, const experiment::ComparedRun& run) {
   entry.settling_s.push_back(run.metrics ? run.metrics->settling_time_s : std::nullopt);
@@ -41,9 +41,9 @@ class Recommender {
   Recommendation work() {
     rank();
     const auto settled = counts(result_)[0];
-    for (std::size_t first = 0; first < settled; first += kTested) {
+    for (std::size_t first = 0; first < settled; first += kGroupSize) {
       if (result_.winner && mean_s(first) >= predicted_s(*result_.winner)) break;
-      test(first, std::min(first + kTested, settled));
+      test(first, std::min(first + kGroupSize, settled));
     }
     return std::move(result_);
   }

@@ -65,7 +65,7 @@ bool accepted(const Answers& answers, Request request) {
 }
 
 /// A passed self-test of the old bridge is not valid for a new bridge. ESTOP and FAULT do not change.
-void begin_anew(const Inputs& in, Memory& m) {
+void restart_self_test(const Inputs& in, Memory& m) {
   m.self_test_passed = false;
   m.clear_since_s = m.fresh_since_s = in.now_s;
   if (m.state == State::estop || m.state == State::fault) return;
@@ -112,8 +112,8 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
   if (m.state != State::run) return;
   m.move_began = m.move_began || in.reference_moving;
-  // The process does not reach this time: OperatorRequests::is_moving() ends such a move 0.2 s
-  // after its acceptance.
+  // For callers without OperatorRequests. In the process, OperatorRequests::is_moving() ends such a move
+  // earlier, 0.2 s after its acceptance.
   const bool never_began = !m.move_began && in.now_s - m.entered_s >= limits.longest_wait_for_motion_s;
   if ((m.move_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
@@ -123,7 +123,7 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
 
 /// The request `stop` replaces a routine cause by OPERATOR_STOP, so that no program resets the stop by
 /// itself.
-void note_operator_stop(const Inputs& in, Memory& m) {
+void replace_routine_cause(const Inputs& in, Memory& m) {
   if (requested(in, Request::stop) && is_routine(m.cause)) m.cause = Cause::operator_stop;
 }
 
@@ -149,7 +149,7 @@ void transition(const Limits& limits, const Inputs& in, const Answers& answers, 
       enter(State::locked, m.cause, in, m);
       break;
     case State::locked:
-      note_operator_stop(in, m);
+      replace_routine_cause(in, m);
       [[fallthrough]];
     case State::estop:
       if (!accepted(answers, Request::reset)) break;
@@ -171,7 +171,7 @@ void transition(const Limits& limits, const Inputs& in, const Answers& answers, 
       break;
     case State::stop_c1:
     case State::stop_c0:
-      note_operator_stop(in, m);
+      replace_routine_cause(in, m);
       step_stop(limits, in, m);
       break;
     case State::fault:
@@ -204,7 +204,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (blocking_cause(limits, in, m) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
   if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
 
-  if (in.bridge_restarted && protection::enabled("supervisor_bridge_restarted")) begin_anew(in, m);
+  if (in.bridge_restarted && protection::enabled("supervisor_bridge_restarted")) restart_self_test(in, m);
   const Finding finding = first_matching_cause(limits, in, m);
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);

@@ -26,7 +26,7 @@ double advance_homing(const Limits& limits, TickMemory& memory) {
 }
 
 /// @return true when a brake that is commanded closed does not hold its axis, or does not report
-///   closed in time. In BOOT and SELFTEST, every tick replaces the stored position and speed.
+///   closed in time. In BOOT and SELFTEST, every tick restarts the check.
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
@@ -44,7 +44,7 @@ bool watch_relay(const Limits& limits, const TickInput& input, bool sampled, Tic
 
 /// During homing, the other axes get 0 V, and the voltage of the homed axis is limited to volt_limit_v of its
 /// homing.
-PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory& memory) {
+PerAxis homing_limited_demand(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   PerAxis demand_v = input.demand_v;
   if (!memory.machine.homing || !std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); }))
     return demand_v;
@@ -58,7 +58,7 @@ PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory
 GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope& envelope,
                     TickMemory& memory) {
   const GateInput in{.arrived = input.demand_arrived,
-                     .demand_v = demand_of(limits, input, memory),
+                     .demand_v = homing_limited_demand(limits, input, memory),
                      .drives_active = drives_active(memory.machine),
                      .block_positive = envelope.block_positive,
                      .block_negative = envelope.block_negative};
@@ -66,7 +66,7 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
 }
 
 /// Not checked during homing, because the position is unknown; step_homing() checks the motion.
-bool following_error_now(const Limits& limits, bool sampled, TickMemory& memory) {
+bool check_following_error(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return false;
   AxisFlags free{};
   for (std::size_t i = 0; i < kAxes; ++i)
@@ -75,7 +75,7 @@ bool following_error_now(const Limits& limits, bool sampled, TickMemory& memory)
   return found && drives_active(memory.machine);
 }
 
-bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
+bool check_swing_encoders(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return false;
   const bool failed = swing_sensor_failed(limits, pendulum_input(memory.sample), memory.pendulum);
   return failed && drives_active(memory.machine) && !memory.machine.homing;
@@ -137,8 +137,8 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   GateOutput gated = run_gate(limits, input, envelope, memory);
   const ZoneVerdict zone = guard_zones(limits, sampled, gated, memory);
   const double homing_speed = advance_homing(limits, memory);
-  const bool following_error = following_error_now(limits, sampled, memory);
-  const bool swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
+  const bool following_error = check_following_error(limits, sampled, memory);
+  const bool swing_sensor_failed = check_swing_encoders(limits, sampled, memory);
   const Inputs inputs = machine_inputs(limits, input,
                                        {.envelope = envelope,
                                         .gated = gated,

@@ -17,7 +17,7 @@ using plant::kHoist;
 using plant::kSlew;
 using plant::kTrolley;
 
-double gap_of(const Limits& limits, std::size_t zone, const ReachedSpace& reach) noexcept {
+double clearance_of(const Limits& limits, std::size_t zone, const ReachedSpace& reach) noexcept {
   return control::clearance_m(limits.zones[zone], reach, limits.clearance.suspension_height_m);
 }
 
@@ -29,11 +29,11 @@ bool leaves(const ZoneMemory& memory, std::size_t zone) noexcept { return memory
 double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
                            double omega_radps) noexcept {
   // from the decision until the controllers follow the planner's new reference
-  constexpr int kTicksOfStop = 4;
+  constexpr int kStopDelay_ticks = 4;
   const double a = limits.reference_acceleration[axis], v = std::abs(speed);
   if (!limits.axis[axis].present || !(a > 0) || v < limits.axis[axis].standstill_speed) return 0;
   const double excess = std::max(0.0, v - a / omega_radps);
-  const double travel = v * kTicksOfStop * limits.period_s + excess * excess / (2 * a);
+  const double travel = v * kStopDelay_ticks * limits.period_s + excess * excess / (2 * a);
   return speed > 0 ? travel : -travel;
 }
 
@@ -55,7 +55,7 @@ std::optional<std::size_t> zone_ahead(const Limits& limits, const ZoneInput& inp
                              .radius_m = now.radius_m,
                              .lowest_m = now.lowest_m - share * lower};
     for (std::size_t zone = 0; zone < limits.zones.size(); ++zone)
-      if (!leaves(memory, zone) && gap_of(limits, zone, reach) < 0) return zone;
+      if (!leaves(memory, zone) && clearance_of(limits, zone, reach) < 0) return zone;
   }
   return std::nullopt;
 }
@@ -69,8 +69,8 @@ void begin_watching(const Limits& limits, const ZoneInput& input, const ReachedS
       limits.axis[kSlew].present ? input.position[kSlew] : 0, limits.machine.cable(input.position[kHoist]));
   for (std::size_t zone = 0; zone < limits.zones.size(); ++zone) {
     double& permitted_m = memory.permitted_m[zone];
-    const double gap_m = gap_of(limits, zone, reach), before_m = permitted_m < 0 ? permitted_m : gap_m;
-    permitted_m = gap_of(limits, zone, resting) < 0 ? std::min(std::max(before_m, gap_m), 0.0) : 0;
+    const double gap_m = clearance_of(limits, zone, reach), before_m = permitted_m < 0 ? permitted_m : gap_m;
+    permitted_m = clearance_of(limits, zone, resting) < 0 ? std::min(std::max(before_m, gap_m), 0.0) : 0;
   }
   memory.watching = true;
 }
@@ -111,7 +111,7 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t zone = 0; zone < limits.zones.size(); ++zone) {
     double& permitted_m = memory.permitted_m[zone];
-    const double gap_m = gap_of(limits, zone, reach);
+    const double gap_m = clearance_of(limits, zone, reach);
     const double spare_m = gap_m - permitted_m + (leaves(memory, zone) ? kLeaveTolerance_m : 0);
     if (!(spare_m >= least_m)) {  // true for NaN, too
       least_m = spare_m;
@@ -121,7 +121,7 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
     permitted_m = std::min(0.0, std::max(permitted_m, gap_m));
   }
   if (ahead && !verdict.needs_ramped_stop)
-    verdict.zone = *ahead, verdict.clearance_m = gap_of(limits, *ahead, reach);
+    verdict.zone = *ahead, verdict.clearance_m = clearance_of(limits, *ahead, reach);
   return verdict;
 }
 

@@ -118,7 +118,7 @@ TEST(Metrics, ASwingThatStaysMeansNotSettledAndIsTheResidualSwing) {
   EXPECT_NEAR(m.largest_swing_radial_rad, 0.3, 1e-9);
 }
 
-TEST(Metrics, TheScatterOfTheSwingIsItsStandardDeviationInBothPlanesAboutTheMean) {
+TEST(Metrics, SwingScatterIsTheStandardDeviationInBothPlanes) {
   const auto run = sampled(20, [](double t) {
     Sample s = first_order(t);
     s.swing_radial_rad = 0.05 + 0.03 * std::sin(2 * kPi * t);  // 20 periods about a constant deflection

@@ -89,7 +89,7 @@ TEST_F(DiscoveryAttack, ThatHidesAStopFromThePlannerDelaysItByAtMostEightSeconds
   EXPECT_TRUE(stack_->until([&] { return lost() > 100; }, 5s)) << "the attack has no effect";
 }
 
-TEST_F(DiscoveryAttack, ThatEndsSupervisorAndBridgeForEachOtherMovesNothing) {
+TEST_F(DiscoveryAttack, WithForgedEndsOfSupervisorAndBridgeMovesNothing) {
   const auto supervisor = prefix_of(heard("plant", topics::command).message);
   const auto plant = prefix_of(heard("supervisor", topics::state).message);
   stack_->forget();

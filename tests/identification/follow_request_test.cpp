@@ -65,7 +65,7 @@ TEST(FollowRequest, IsRefusedBeyondTheSpeed) {
   EXPECT_NE(refusal_of(following(0.2, 2)).find("speed"), std::string::npos);
 }
 
-TEST(FollowRequest, IsRefusedWhenTheReferenceBeginsFartherFromTheAxisThanAMoveNeedsToReachItsSpeed) {
+TEST(FollowRequest, IsRefusedWhenTheReferenceBeginsFarFromTheAxis) {
   constexpr double kNear_m = 0.12, kFar_m = 0.13;  // limit: V_max^2 / (2 a_max) = 0.125 m, (3.54)
   const auto beginning = [](double distance_m, double amplitude_m) {
     auto scenario = following(amplitude_m, 0.25);

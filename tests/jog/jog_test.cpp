@@ -186,7 +186,7 @@ TEST_F(Stranger, WhoCopiesClientAndIdHasNoEffectOnTheSession) {
   EXPECT_EQ(jogged_.events("jog_stranger"), 1);
 }
 
-TEST_F(Stranger, WhoSendsFirstDoesNotWinTheSession) {
+TEST_F(Stranger, WithTheFirstSampleDoesNotTakeTheSession) {
   ASSERT_EQ(jogged_.begin({true, true, false}), "");
   jogged_.mischief = [this] { (void)forged_.publish(jogged_.sample({1, 1, 1})); };
   jogged_.crane().run(0.3);

@@ -53,7 +53,7 @@ TEST(Terms, PositionDependentFrictionPeaksAtTheTightSpotsAndVanishesBetween) {
   EXPECT_NEAR(friction_v(terms, 0.1, 0.3), 0, 1e-9);
 }
 
-TEST(Terms, CoulombAndViscousAndAsymmetryTogetherAreADriveFrictionOfTwoDirections) {
+TEST(Terms, CoulombViscousAndAsymmetryEqualDriveFriction) {
   const std::vector<TermSetting> parts{
       {"coulomb_friction", "trolley", {{"level_v", 1.0}}},
       {"viscous_friction", "trolley", {{"vspm", 4.0}}},

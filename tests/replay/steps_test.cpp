@@ -94,7 +94,7 @@ TEST_F(StepsOf, ALateDemandIsNotThatOfTheSupervisor) {
   EXPECT_NE(irregularity(steps()), "");
 }
 
-TEST_F(StepsOf, WithoutStatusAndCommandTheSupervisorSteppedOnlyIfTheBridgeAppliesItsCommand) {
+TEST_F(StepsOf, AMissingStatusIsAStepOnlyIfItsCommandWasApplied) {
   omit(now_, topics::supervisor);
   omit(now_, topics::command);
   EXPECT_TRUE(steps().supervisor);

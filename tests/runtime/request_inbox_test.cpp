@@ -144,7 +144,7 @@ class InboxInRealTime : public Inbox {
   std::uint64_t tick_ = 0, id_ = 0;
 };
 
-TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOperatorHasLeft) {
+TEST_F(InboxInRealTime, RefusesARequestForALaterTick) {
   run_until(1);
   named_ = header_of(1);
   send(1, 20, crane_REQUEST_ARM);

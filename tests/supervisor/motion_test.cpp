@@ -21,7 +21,7 @@ TEST(Supervisor, StopsBeforeThePositionLimit) {  // S9
   EXPECT_LT(t.world.sample.position[0], t.limits.axis[0].high_limit);
 }
 
-TEST(Supervisor, DividesByTheTimeBetweenTwoSamplesNotByThePeriod) {
+TEST(Supervisor, ComputesTheSpeedFromSampleTimesNotFromThePeriod) {
   Timeline t;
   t.to_run();
   t.demand(3);
@@ -97,7 +97,7 @@ TEST(Supervisor, SwingAboveTheLimitIsDampedFirstAndBrakedWhenItGrows) {  // S11
   EXPECT_TRUE(t.safe());
 }
 
-TEST(Supervisor, AFreelySwingingLoadIsNoFaultAndBelowTheLimitDoesNotHinderArming) {  // S11
+TEST(Supervisor, ASwingBelowTheLimitPermitsArming) {  // S11
   Timeline t;
   for (int i = 0; i < 3000; ++i) {
     const double swing = 0.65 * std::sin(3.13 * i * t.limits.period_s);

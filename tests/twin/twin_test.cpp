@@ -34,13 +34,13 @@ twin::Design design() {
   return quick;
 }
 
-constexpr long kSecond = 100;  // ticks
+constexpr long kTicksPerSecond = 100;  // ticks
 
 class TwinTest : public testing::Test {
  protected:
   /// @return the first notice within this number of seconds
   std::optional<Notice> watch(double seconds) {
-    for (long k = 0; k < std::lround(seconds * kSecond); ++k) {
+    for (long k = 0; k < std::lround(seconds * kTicksPerSecond); ++k) {
       twin_.step(motion_.next());
       if (auto notice = twin_.take_notice()) return notice;
     }
@@ -64,7 +64,7 @@ TEST(TwinDocument, ShowsTheTableOfTheCauses) {
   EXPECT_EQ(text.substr(begin, text.find("<!-- end -->", begin) - begin), twin::cause_table());
 }
 
-TEST(Causes, AreTermsOfTheModelWithTheParameterThatHasTheSize) {
+TEST(Causes, NameATermOfTheModelAndItsSizeParameter) {
   for (const auto& kind : twin::cause_kinds()) {
     if (kind.parameter == nullptr) continue;
     const auto* term = plant::find_term(kind.name);
@@ -73,7 +73,7 @@ TEST(Causes, AreTermsOfTheModelWithTheParameterThatHasTheSize) {
   }
 }
 
-TEST(Causes, WithReferenceSizesAreTheHypothesesOfATowerCrane) {
+TEST(Causes, WithReferenceSizesHaveHypothesesOnATower) {
   std::set<std::string> hypotheses, with_sizes;
   for (const auto& hypothesis : twin::hypotheses_for(rig())) hypotheses.insert(hypothesis.cause);
   for (const auto& kind : twin::cause_kinds())
@@ -84,12 +84,12 @@ TEST(Causes, WithReferenceSizesAreTheHypothesesOfATowerCrane) {
 TEST_F(TwinTest, PredictsItsOwnPlantWithinItsBand) {
   learn();
   int outside = 0;
-  for (long k = 0; k < 30 * kSecond; ++k) {
+  for (long k = 0; k < 30 * kTicksPerSecond; ++k) {
     const Judgement& j = twin_.step(motion_.next());
     ASSERT_EQ(j.state, State::watching) << "seed " << kSeed << ", tick " << k;
     for (std::size_t i = 0; i < twin::kColumns; ++i) outside += std::abs(j.residual[i]) > j.band[i];
   }
-  EXPECT_LT(outside, 30 * kSecond / 1000) << "seed " << kSeed;
+  EXPECT_LT(outside, 30 * kTicksPerSecond / 1000) << "seed " << kSeed;
   EXPECT_LT(twin_.judgement().evidence, 0.5);
   EXPECT_FALSE(twin_.take_notice());
 }
@@ -98,7 +98,7 @@ TEST_F(TwinTest, DisturbancesOfTheLearningPhaseRaiseNoAlarm) {
   constexpr std::uint64_t kNoisySeed = 11;
   SimulatedMotion motion{rig(), kNoisySeed, {.drive_v = 0.05, .swing_radps2 = 0.02}};
   Twin twin{rig(), design()};
-  for (long k = 0; k < 60 * kSecond; ++k) twin.step(motion.next());
+  for (long k = 0; k < 60 * kTicksPerSecond; ++k) twin.step(motion.next());
   EXPECT_EQ(twin.judgement().state, State::watching)
       << "seed " << kNoisySeed << ": " << twin.judgement().cause;
 }
@@ -174,7 +174,7 @@ TEST(TwinOfSwingEncodersWithARestAngle, AgreesWithItsPlant) {
   shifted.encoders[4].rest_angle_rad = -0.03;
   SimulatedMotion motion{shifted, 5};
   Twin twin{shifted, design()};
-  for (long k = 0; k < 40 * kSecond; ++k) {
+  for (long k = 0; k < 40 * kTicksPerSecond; ++k) {
     twin.step(motion.next());
     if (const auto notice = twin.take_notice()) FAIL() << notice->what;
   }
@@ -241,7 +241,7 @@ TEST_F(TwinTest, RestartsWithANewWriter) {
 
 TEST_F(TwinTest, DoesNotJudgeAnAxisThatABrakeHolds) {
   learn();
-  for (long k = 0; k < 10 * kSecond; ++k) {
+  for (long k = 0; k < 10 * kTicksPerSecond; ++k) {
     auto sample = motion_.next();
     sample.held = {true, true, true};
     sample.counts[0] = 200000;  // the brake holds the axis, independent of the command
@@ -261,7 +261,7 @@ TEST(TwinOfEveryRig, IsQuietWhileTheCraneRests) {
     for (std::size_t i = 0; i < plant::kAxes; ++i)
       sample.counts[i] = std::llround(any_rig.encoders[i].sign * any_rig.encoders[i].counts_per_unit *
                                       any_rig.start.position[i]);
-    for (; sample.tick < 4 * kSecond; ++sample.tick) twin.step(sample);
+    for (; sample.tick < 4 * kTicksPerSecond; ++sample.tick) twin.step(sample);
     EXPECT_EQ(twin.judgement().state, State::learning) << entry.path();
     for (std::size_t i = 0; i < twin::kColumns; ++i)
       EXPECT_NEAR(twin.judgement().residual[i], 0, 1e-3) << entry.path() << ", column " << i;

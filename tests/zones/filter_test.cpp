@@ -133,7 +133,7 @@ TEST(ZoneFilter, ChangesNoVoltageFarFromAZone) {
   EXPECT_TRUE(one.armed());
 }
 
-TEST(ZoneFilter, StopsACraneWhoseFirstSampleItHasNotSeen) {
+TEST(ZoneFilter, StopsWithoutAFirstSample) {
   const auto limits = supervisor::limits_of(rig_with("gantry", {wall_at(2)}));
   supervisor::ZoneMemory memory;
   EXPECT_TRUE(supervisor::filter_zones(limits, {}, memory).needs_ramped_stop);

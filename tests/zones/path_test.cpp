@@ -53,7 +53,7 @@ TEST(PathToATarget, DoesNotExistFromAPlaceThatIsNotFinite) {
   EXPECT_EQ(path_to(space, {0.4, 0, 1}, {0.4, nan, 1}).outcome, PathOutcome::no_path);
 }
 
-TEST(PathToATarget, DoesNotExistFromAPlaceFarOutsideTheCrane) {
+TEST(PathToATarget, IsRefusedFromFarOutsideTheCrane) {
   auto space = tower();
   space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
   for (const double far : {1e4, 1e9, 1e15, 1e300, -1e300})

@@ -123,8 +123,9 @@ const CraneEstimate& PendulumObserver::step(const Measurement& raw) noexcept {
   else
     correct(measured);
   predict(measured);
-  const double certain = radial_.covariance.sum() + tangential_.covariance.sum();
-  if (!finite(estimate_.state) || !std::isfinite(certain)) reset(measured);  // unrealistic parameters
+  const double covariance_sum = radial_.covariance.sum() + tangential_.covariance.sum();
+  if (!finite(estimate_.state) || !std::isfinite(covariance_sum))
+    reset(measured);  // diverged because of unrealistic parameters
   return estimate_;
 }
 

@@ -65,7 +65,10 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   refuse_second_writer(bus, spec.writes);
   bus.call_on_arrival([&turn, &spec](std::string_view topic) {
     // The delivery of a sample must not publish the same topic (see Bus::call_on_arrival).
-    writes(spec, topic) ? turn.wake() : turn.run();
+    if (writes(spec, topic))
+      turn.wake();
+    else
+      turn.run();
   });
   RealtimeScheduling scheduling;  // outlives the component, which closes the brakes when it ends
   HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};

@@ -137,15 +137,17 @@ CableTension cable_tension(const Parameters& p, const State& s) noexcept {
 }
 
 CableTension cable_tension(const Parameters& p, const State& s, const Angles& a) noexcept {
-  const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
+  const double l = s.cable_m, phi_rate = s.radial_radps, gamma_rate = s.slew_radps,
+               theta_rate = s.tangential_radps;
   const double x = p.tilt_cosine * s.trolley_m, x_rate = p.tilt_cosine * s.trolley_mps;
   // horizontal components of the cable's unit vector in the slewing frame, and their rates
   const double ex = -a.ct * a.sf, ey = a.st;
-  const double ex_rate = a.st * a.sf * t - a.ct * a.cf * f, ey_rate = a.ct * t;
+  const double ex_rate = a.st * a.sf * theta_rate - a.ct * a.cf * phi_rate, ey_rate = a.ct * theta_rate;
   // component of the unit vector; phi is the sum of its value in the slewing frame and the tilt
   const double along_jib = -a.ct * (a.sf * p.tilt_cosine + a.cf * p.tilt_sine);
-  const double centripetal = l * (f * f * a.ct * a.ct + t * t) + g * g * (x * ex + l * (ex * ex + ey * ey));
-  const double coriolis = 2 * g * (x_rate * ey + l * (ex_rate * ey - ey_rate * ex));
+  const double centripetal = l * (phi_rate * phi_rate * a.ct * a.ct + theta_rate * theta_rate) +
+                             gamma_rate * gamma_rate * (x * ex + l * (ex * ex + ey * ey));
+  const double coriolis = 2 * gamma_rate * (x_rate * ey + l * (ex_rate * ey - ey_rate * ex));
   const double m = p.load_mass_kg;
   return {.free_n = m * (p.gravity_mps2 * a.ct * a.cf + centripetal - coriolis),
           .by_trolley_kg = -m * along_jib,

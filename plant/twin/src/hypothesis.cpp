@@ -126,8 +126,8 @@ double dry_friction_v(const Rig& rig, const std::string& axis) {
   return sum;
 }
 
-/// The effect of Coulomb friction is not proportional to its size, because friction can hold a drive: several
-/// reference sizes of either sign.
+/// Friction can hold a drive, so that its effect is not proportional to its size. Therefore this cause has
+/// several hypotheses, with different reference sizes of either sign.
 void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis) {
   const CauseKind& kind = cause_kind("coulomb_friction");
   const double least_v = kind.sizes.front(), most_lost_v = 0.6 * dry_friction_v(rig, axis);

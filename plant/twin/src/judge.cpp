@@ -63,7 +63,7 @@ void Judge::judge(const Block& block) {
   recent_.push_back(block);
   if (recent_.size() > kRemembered_blocks) recent_.erase(recent_.begin());
   if (phase_ == Phase::deviates) {
-    ++onset_blocks_;
+    ++deviation_blocks_;
     if (!named_ || named_hypothesis_) name_cause();
     if (named_) look_for_return(block);
     return;
@@ -88,12 +88,12 @@ void Judge::begin_deviation() {
   blocks_of_doubt_ = quiet_blocks_ = 0;
   return_evidence_ = 0;
   named_hypothesis_.reset();
-  onset_blocks_ = 1;
+  deviation_blocks_ = 1;
   double strongest = 0;
   const auto consider = [&](const Cusum& cusum) {
     if (cusum.value <= strongest) return;
     strongest = cusum.value;
-    onset_blocks_ = cusum.blocks;
+    deviation_blocks_ = cusum.blocks;
   };
   for (std::size_t c = 0; c < hypotheses_.size(); ++c) consider(up_[c]), consider(down_[c]);
   for (const Cusum& cusum : energy_) consider(cusum);
@@ -152,7 +152,7 @@ void Judge::agree() {
   named_hypothesis_.reset();
   named_ = is_step_ = false;
   recent_.clear();
-  onset_blocks_ = 0;
+  deviation_blocks_ = 0;
   std::fill(up_.begin(), up_.end(), Cusum{});
   std::fill(down_.begin(), down_.end(), Cusum{});
   energy_.fill({});

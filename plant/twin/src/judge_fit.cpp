@@ -18,7 +18,7 @@ constexpr double kNearLow = 0.4, kNearHigh = 1.8;  // range of Hypothesis::only_
 
 /// Blocks of the deviation without the first one, in which the change occurred.
 std::span<const Block> Judge::fitted_blocks() const {
-  const std::size_t count = std::min(onset_blocks_, recent_.size());
+  const std::size_t count = std::min(deviation_blocks_, recent_.size());
   return std::span{recent_}.last(count > 1 ? count - 1 : count);
 }
 

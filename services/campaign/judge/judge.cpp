@@ -109,7 +109,7 @@ class Judgement {
   }
 
   void refusal() {
-    if (run_.expectation.refused && run_.accepted != false)
+    if (run_.expectation.refused && (!run_.accepted || *run_.accepted))
       violated(Invariant::reset_and_arm, run_.rows.size() - 1,
                run_.accepted ? "a request was accepted that must be refused" : "a request was not answered");
   }

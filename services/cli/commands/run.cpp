@@ -171,9 +171,10 @@ void add_selection_options(CLI::App& command, RunOptions& options) {
       "controller (repeatable); default: the controller of the scenario, else of the rig file; with "
       "--compare every controller");
   command
-      .add_option("--variants", options.variants,
-                  "changes of the rig (list below); default: the variants of the scenario, else none; with "
-                  "--compare the first eight")
+      .add_option(
+          "--variants", options.variants,
+          "variants of the rig (list below); default: those of the scenario, else none; with --compare the "
+          "first eight")
       ->delimiter(',');
   command.add_option(
       "--rig", options.rig,

@@ -73,8 +73,8 @@ std::string goes_without(const std::string& process) {
   return process == "dashboard" ? "its dashboard" : "";
 }
 
-/// Starts the dashboard and restarts it after its end; not when it ran for less than a second, because it
-/// would end again.
+/// Starts the dashboard and restarts it when it ends, except within a second of its start, because it would
+/// end again.
 class DashboardKeeper {
  public:
   DashboardKeeper(stack::ChildProcesses& children, const UpOptions& options)

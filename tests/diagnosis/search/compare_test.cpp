@@ -12,7 +12,7 @@ namespace crane::diagnosis {
 namespace {
 
 constexpr std::size_t kBlocks = 90;
-constexpr double kOfEach = 100;
+constexpr double kBlockDeviance = 100;
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kCandidates = 40;
 
@@ -23,29 +23,29 @@ struct Compared : testing::Test {
     effect.axis = "trolley";
     fitted.effects = {{&effect, {}}};
     for (Fitted* of : {&base, &fitted}) {
-      of->deviance.assign(kBlocks, kOfEach);
+      of->deviance.assign(kBlocks, kBlockDeviance);
       of->train.drive_blocks = kBlocks;
     }
     base.error[kTrolleyPosition] = 1;
     fitted.error[kTrolleyPosition] = 0.8;
   }
-  [[nodiscard]] bool is_possible() const { return likelier_in_resamples(fitted, base, kSeed); }
+  [[nodiscard]] bool is_likelier() const { return likelier_in_resamples(fitted, base, kSeed); }
   [[nodiscard]] bool is_accepted() const { return accepted(fitted, base, kCandidates); }
 
   Candidate effect, other;
   Fitted base, fitted;
 };
 
-TEST_F(Compared, AnEffectOfAllBlocksIsNotOutvotedByOneSlip) {
+TEST_F(Compared, OneOutlierBlockDoesNotRejectACause) {
   for (double& block : fitted.deviance) block -= 2;
   fitted.deviance[35] -= 120, fitted.deviance[44] += 170;
-  EXPECT_TRUE(is_possible());
+  EXPECT_TRUE(is_likelier());
   EXPECT_TRUE(is_accepted());
 }
 
-TEST_F(Compared, OneSlipLessIsNotAnEffect) {
+TEST_F(Compared, OneBetterBlockIsNotAccepted) {
   fitted.deviance[35] -= 2000;
-  EXPECT_FALSE(is_possible());
+  EXPECT_FALSE(is_likelier());
   EXPECT_FALSE(is_accepted());
 }
 
@@ -70,7 +70,7 @@ TEST_F(Compared, PValuesAreUniformWithoutAnEffect) {
   int below = 0;
   constexpr int kCases = 2000;
   for (int i = 0; i < kCases; ++i) {
-    for (double& block : fitted.deviance) block = kOfEach + gauss(random);
+    for (double& block : fitted.deviance) block = kBlockDeviance + gauss(random);
     below += block_test_p_value(fitted.deviance, base.deviance) < 0.05 ? 1 : 0;
   }
   EXPECT_NEAR(below, 0.05 * kCases, 4 * std::sqrt(0.05 * 0.95 * kCases));
@@ -129,7 +129,7 @@ TEST_F(Compared, AnAmountWhoseIntervalContainsZeroIsNotSignificant) {
   EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the second amount
 }
 
-TEST_F(Compared, ARarerCauseMustBeLikelierThanItsMoreCommonTwinByAMargin) {
+TEST_F(Compared, ARareCauseNeedsAMarginOverTheCommonCause) {
   effect.cause = "drive_inertia";
   other.cause = "motor_gain";
   effect.axis = other.axis = "trolley";
@@ -156,7 +156,7 @@ TEST_F(Compared, AnEffectInATenthOfTheBlocksIsSignificant) {
 TEST_F(Compared, ALargerLikelihoodWithoutASmallerErrorIsNotAccepted) {
   for (double& block : fitted.deviance) block -= 4;
   fitted.error[kTrolleyPosition] = 0.999;
-  EXPECT_TRUE(is_possible());
+  EXPECT_TRUE(is_likelier());
   EXPECT_FALSE(is_accepted());
 }
 
@@ -225,14 +225,14 @@ TEST_F(Rivals, AHypothesisThatImprovesEveryBlockWinsTheVotes) {
   EXPECT_EQ(votes_for_rival(), 0);
 }
 
-TEST_F(Rivals, AHypothesisThatImprovesAndWorsensEquallyManyBlocksLeavesTheVotesOpen) {
+TEST_F(Rivals, EquallyManyBetterAndWorseBlocksSplitTheVote) {
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += i % 2 == 0 ? -4 : 4;
   fitted.deviance[0] -= 4;
   EXPECT_GT(votes_for_rival(), 0.2);
 }
 
 /// 0.25 % and 2.5 % of the gain.
-TEST_F(Rivals, ShareTheVoteIfTheyDifferByLessThanTheTermsAreExact) {
+TEST_F(Rivals, OfNearlyEqualDevianceShareTheVote) {
   for (double& block : fitted.deviance) block -= 4;
   rival.deviance = fitted.deviance;
   for (double& block : rival.deviance) block += 0.01;

@@ -47,7 +47,7 @@ struct Prospects : testing::Test {
 };
 
 /// n ln(1 / (1 - s)) is the decrease of n ln(variance) when the share s of the squares is removed.
-TEST_F(Prospects, ADecreaseOfTheNoiseCountsAndAFitMayExceedThePredictionFiftyTimes) {
+TEST_F(Prospects, ReachableDecreaseIsFiftyTimesThePrediction) {
   EXPECT_NEAR(reachable(1e-7), 50 * 1e-7 * kLoss, 1e-6);
   EXPECT_NEAR(reachable(0.016), kLoss * std::log(1 / (1 - 0.8)), 1e-6);
   EXPECT_TRUE(std::isinf(reachable(0.02)));

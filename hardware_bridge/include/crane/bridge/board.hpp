@@ -48,7 +48,8 @@ class Board {
   /// Sets 0 V, removes the supply of the brakes and stops toggling the watchdog output. May be called at any
   /// time.
   virtual void make_safe() noexcept = 0;
-  /// Simulated boards: advances the rig up to `time_ns`. Other boards: no effect.
+  /// Simulated boards: advances the rig up to `time_ns`, the time since the start (in lockstep: tick times
+  /// period). Other boards: no effect.
   virtual void advance_to(std::int64_t time_ns) = 0;
   /// True when time passes only in advance_to(), so that the board can run in lockstep.
   [[nodiscard]] virtual bool simulates_time() const { return false; }

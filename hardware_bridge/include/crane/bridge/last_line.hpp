@@ -148,10 +148,9 @@ class LastLine {
   [[nodiscard]] Outputs decide(const std::optional<CommandView>& command, std::uint64_t tick,
                                const Observation& observation) noexcept;
 
-  /// The latched reason. A latch that is not final ends in two steps: a fresh command with 0 V and
-  /// closed brakes withholds the watchdog permission (STOP_C0 of the supervisor); a later fresh
-  /// command with 0 V and closed brakes grants it (after the operator's reset), and no second
-  /// writer is detected.
+  /// The latched reason. A latch that is not final ends after two fresh commands with 0 V and closed brakes:
+  /// first one that withholds the watchdog permission (STOP_C0 of the supervisor), then one that grants it
+  /// (after the operator's reset), while no second writer is detected.
   [[nodiscard]] Reason reason() const { return reason_; }
   /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }

@@ -53,9 +53,10 @@ AxisAdaptation::AxisAdaptation(const Design& design, std::size_t axis)
       friction_{design.friction[axis]},
       break_away_{friction_, share_},
       limit_cycle_{zero_band_, period_s_} {
-  file_ = {{{friction_.coulomb_positive_v, friction_.viscous_positive_vspm, friction_.stiction_positive_v},
-            {friction_.coulomb_negative_v, friction_.viscous_negative_vspm, friction_.stiction_negative_v}}};
-  used_ = target_ = good_ = file_;
+  rig_levels_ = {
+      {{friction_.coulomb_positive_v, friction_.viscous_positive_vspm, friction_.stiction_positive_v},
+       {friction_.coulomb_negative_v, friction_.viscous_negative_vspm, friction_.stiction_negative_v}}};
+  active_levels_ = target_ = previous_levels_ = rig_levels_;
   ceiling_.fill(1 + share_);
 }
 
@@ -75,7 +76,7 @@ void AxisAdaptation::step(const AxisBalance* balance, AdaptationFreeze reason, L
     speed_ = std::abs(balance->speed);
     // the mean acceleration of a block is the difference of two speeds divided by its duration
     const double noise = filter.noise_v(axis_) * gain_ * kBlock_ticks * period_s_ / std::numbers::sqrt2;
-    if (limit_cycle_.step(balance->speed, noise)) oscillates(filter);
+    if (limit_cycle_.step(balance->speed, noise)) lower_after_oscillation(filter);
     moves_ = std::abs(limit_cycle_.mean_speed()) > kLearnBands * zero_band_;
     report_.freeze = held_;
     learn(*balance, filter);
@@ -134,8 +135,8 @@ void AxisAdaptation::finish_block(LevelFilter& filter) noexcept {
   const auto missed = [&](const FrictionLevels& levels) {
     return squared_v(friction_v - levels.coulomb_v - levels.viscous_vspm * mean.speed);
   };
-  used_squares_ += missed(used_[d]);
-  good_squares_ += missed(good_[d]);
+  active_squares_ += missed(active_levels_[d]);
+  previous_squares_ += missed(previous_levels_[d]);
   ++judged_blocks_;
   if (held_ != AdaptationFreeze::none) return;
   if (!innovation.plausible) {
@@ -152,11 +153,11 @@ void AxisAdaptation::finish_block(LevelFilter& filter) noexcept {
 
 bool AxisAdaptation::excited(std::size_t direction, const LevelFilter& filter) const noexcept {
   return report_.direction[direction].blocks >= kLeastBlocks &&
-         filter.coulomb_v(axis_, direction).std_dev <= kExcitedShare * file_[direction].coulomb_v;
+         filter.coulomb_v(axis_, direction).std_dev <= kExcitedShare * rig_levels_[direction].coulomb_v;
 }
 
 FrictionLevels AxisAdaptation::wanted(std::size_t direction, const LevelFilter& filter) const noexcept {
-  const FrictionLevels& file = file_[direction];
+  const FrictionLevels& file = rig_levels_[direction];
   const Estimated c = filter.coulomb_v(axis_, direction), b = filter.viscous_vspm(axis_, direction);
   const BreakAway::Excess& excess = break_away_.excess(direction);
   const double lowest = 1 - share_, highest = std::min(1 + share_, ceiling_[direction]);
@@ -177,56 +178,60 @@ void AxisAdaptation::lower(std::size_t d, double speed, const LevelFilter& filte
   FrictionLevels& target = target_[d];
   const Estimated shown = filter.moving_v(axis_, d, speed);
   const double compensated_v = target.coulomb_v + target.viscous_vspm * speed;
-  const double least_v = shown.value + kLowerMargin * shown.std_dev + kLowerShare * file_[d].coulomb_v;
+  const double least_v = shown.value + kLowerMargin * shown.std_dev + kLowerShare * rig_levels_[d].coulomb_v;
   excess_blocks_ = compensated_v > least_v ? excess_blocks_ + 1 : 0;
   if (excess_blocks_ < kLowerBlocks) return;
   const double kept = std::max(shown.value / compensated_v, 0.0);
-  target.coulomb_v = std::max(kept * target.coulomb_v, (1 - share_) * file_[d].coulomb_v);
-  target.static_v = std::max(kept * target.static_v, (1 - share_) * file_[d].static_v);
-  target.viscous_vspm = std::max(kept * target.viscous_vspm, (1 - viscous_share_) * file_[d].viscous_vspm);
+  target.coulomb_v = std::max(kept * target.coulomb_v, (1 - share_) * rig_levels_[d].coulomb_v);
+  target.static_v = std::max(kept * target.static_v, (1 - share_) * rig_levels_[d].static_v);
+  target.viscous_vspm =
+      std::max(kept * target.viscous_vspm, (1 - viscous_share_) * rig_levels_[d].viscous_vspm);
   on_trial_ = true;
 }
 
-void AxisAdaptation::oscillates(const LevelFilter& filter) noexcept {
+void AxisAdaptation::lower_after_oscillation(const LevelFilter& filter) noexcept {
   ++report_.limit_cycles;
   for (std::size_t d = 0; d < 2; ++d) {
     FrictionLevels& target = target_[d];
     // A level above that of the file was learnt where the friction is larger than here.
-    target.static_v = std::min(target.static_v, file_[d].static_v);
-    target.coulomb_v = std::min(target.coulomb_v, file_[d].coulomb_v);
-    if (on_trial_ && good_[d].static_v < target.static_v) target.static_v = good_[d].static_v;
-    if (on_trial_ && good_[d].coulomb_v < target.coulomb_v) target.coulomb_v = good_[d].coulomb_v;
+    target.static_v = std::min(target.static_v, rig_levels_[d].static_v);
+    target.coulomb_v = std::min(target.coulomb_v, rig_levels_[d].coulomb_v);
+    if (on_trial_ && previous_levels_[d].static_v < target.static_v)
+      target.static_v = previous_levels_[d].static_v;
+    if (on_trial_ && previous_levels_[d].coulomb_v < target.coulomb_v)
+      target.coulomb_v = previous_levels_[d].coulomb_v;
     // a level of at most kCeilingCut of the known friction cannot cause an oscillation
     const bool known = excited(d, filter);
     const double coulomb_v =
-        known ? kCeilingCut * filter.coulomb_v(axis_, d).value : kLeastUnknown * file_[d].coulomb_v;
-    const double static_v = known ? coulomb_v : kLeastUnknown * file_[d].static_v;
+        known ? kCeilingCut * filter.coulomb_v(axis_, d).value : kLeastUnknown * rig_levels_[d].coulomb_v;
+    const double static_v = known ? coulomb_v : kLeastUnknown * rig_levels_[d].static_v;
     target.static_v = std::max(kCeilingCut * target.static_v, std::min(static_v, target.static_v));
     target.coulomb_v = std::max(kCeilingCut * target.coulomb_v, std::min(coulomb_v, target.coulomb_v));
-    const double kept = std::max(target.coulomb_v / file_[d].coulomb_v, target.static_v / file_[d].static_v);
+    const double kept =
+        std::max(target.coulomb_v / rig_levels_[d].coulomb_v, target.static_v / rig_levels_[d].static_v);
     ceiling_[d] = std::max(1 - share_, std::min(ceiling_[d], kept));
-    target.static_v = std::max(target.static_v, (1 - share_) * file_[d].static_v);
-    target.coulomb_v = std::max(target.coulomb_v, (1 - share_) * file_[d].coulomb_v);
+    target.static_v = std::max(target.static_v, (1 - share_) * rig_levels_[d].static_v);
+    target.coulomb_v = std::max(target.coulomb_v, (1 - share_) * rig_levels_[d].coulomb_v);
   }
   on_trial_ = false;
-  good_ = target_;
+  previous_levels_ = target_;
   held_ = AdaptationFreeze::limit_cycle;
   frozen_moves_ = 1;
 }
 
 void AxisAdaptation::judge(LevelFilter& filter) noexcept {
-  const double used_v = std::sqrt(used_squares_ / judged_blocks_);
-  const double good_v = std::sqrt(good_squares_ / judged_blocks_);
-  report_.move_residual_v = used_v;
-  report_.previous_residual_v = good_v;
-  if (on_trial_ && used_v > kWorse * good_v + kWorse_v) {
-    target_ = good_;
+  const double active_v = std::sqrt(active_squares_ / judged_blocks_);
+  const double previous_v = std::sqrt(previous_squares_ / judged_blocks_);
+  report_.move_residual_v = active_v;
+  report_.previous_residual_v = previous_v;
+  if (on_trial_ && active_v > kWorse * previous_v + kWorse_v) {
+    target_ = previous_levels_;
     ++report_.roll_backs;
     held_ = AdaptationFreeze::rolled_back;
     frozen_moves_ = kFrozenMoves;
     for (std::size_t d = 0; d < 2; ++d) filter.forget(axis_, d);
   } else {
-    good_ = target_;
+    previous_levels_ = target_;
   }
   on_trial_ = false;
 }
@@ -235,7 +240,7 @@ void AxisAdaptation::end_move(LevelFilter& filter) noexcept {
   if (!adapts_) return;
   if (held_ != AdaptationFreeze::none && --frozen_moves_ <= 0) held_ = AdaptationFreeze::none;
   if (judged_blocks_ >= kJudgedBlocks) judge(filter);
-  used_squares_ = good_squares_ = 0;
+  active_squares_ = previous_squares_ = 0;
   judged_blocks_ = 0;
   if (held_ != AdaptationFreeze::none) return;
   bool changed = false;
@@ -247,9 +252,9 @@ void AxisAdaptation::end_move(LevelFilter& filter) noexcept {
     }
     if (!excited(d, filter)) continue;
     const FrictionLevels levels = wanted(d, filter);
-    if (std::abs(levels.coulomb_v - target_[d].coulomb_v) < kDeadShare * file_[d].coulomb_v &&
-        std::abs(levels.static_v - target_[d].static_v) < kDeadShare * file_[d].static_v &&
-        std::abs(levels.viscous_vspm - target_[d].viscous_vspm) <= kDeadShare * file_[d].viscous_vspm)
+    if (std::abs(levels.coulomb_v - target_[d].coulomb_v) < kDeadShare * rig_levels_[d].coulomb_v &&
+        std::abs(levels.static_v - target_[d].static_v) < kDeadShare * rig_levels_[d].static_v &&
+        std::abs(levels.viscous_vspm - target_[d].viscous_vspm) <= kDeadShare * rig_levels_[d].viscous_vspm)
       continue;
     target_[d] = levels;
     changed = true;
@@ -263,13 +268,13 @@ void AxisAdaptation::approach_target() noexcept {
   const double most = kRamp_vps * period_s_;
   for (std::size_t d = 0; d < 2; ++d)
     for (auto level : {&FrictionLevels::coulomb_v, &FrictionLevels::viscous_vspm, &FrictionLevels::static_v})
-      used_[d].*level += std::clamp(target_[d].*level - used_[d].*level, -most, most);
-  friction_.coulomb_positive_v = used_[0].coulomb_v;
-  friction_.coulomb_negative_v = used_[1].coulomb_v;
-  friction_.viscous_positive_vspm = used_[0].viscous_vspm;
-  friction_.viscous_negative_vspm = used_[1].viscous_vspm;
-  friction_.stiction_positive_v = used_[0].static_v;
-  friction_.stiction_negative_v = used_[1].static_v;
+      active_levels_[d].*level += std::clamp(target_[d].*level - active_levels_[d].*level, -most, most);
+  friction_.coulomb_positive_v = active_levels_[0].coulomb_v;
+  friction_.coulomb_negative_v = active_levels_[1].coulomb_v;
+  friction_.viscous_positive_vspm = active_levels_[0].viscous_vspm;
+  friction_.viscous_negative_vspm = active_levels_[1].viscous_vspm;
+  friction_.stiction_positive_v = active_levels_[0].static_v;
+  friction_.stiction_negative_v = active_levels_[1].static_v;
 }
 
 void AxisAdaptation::describe(const LevelFilter& filter) noexcept {
@@ -280,7 +285,7 @@ void AxisAdaptation::describe(const LevelFilter& filter) noexcept {
     const BreakAway::Excess& excess = break_away_.excess(d);
     shown.estimate = {c.value, b.value, c.value + excess.value_v};
     shown.std_dev = {c.std_dev, b.std_dev, std::sqrt(squared_v(c.std_dev) + excess.variance)};
-    shown.used = used_[d];
+    shown.used = active_levels_[d];
     const double prior = filter.prior_coulomb_deviation(axis_, d);
     if (prior > 0) known += std::clamp(1 - c.std_dev / prior, 0.0, 1.0) / 2;
   }

@@ -35,7 +35,7 @@ class AxisAdaptation {
   void lower(std::size_t direction, double speed, const LevelFilter& filter) noexcept;
   [[nodiscard]] FrictionLevels wanted(std::size_t direction, const LevelFilter& filter) const noexcept;
   [[nodiscard]] bool excited(std::size_t direction, const LevelFilter& filter) const noexcept;
-  void oscillates(const LevelFilter& filter) noexcept;
+  void lower_after_oscillation(const LevelFilter& filter) noexcept;
   void judge(LevelFilter& filter) noexcept;
   void approach_target() noexcept;
   void describe(const LevelFilter& filter) noexcept;
@@ -44,7 +44,7 @@ class AxisAdaptation {
   bool adapts_;
   double zero_band_, share_, viscous_share_, period_s_, gain_;
   DriveFriction friction_;  ///< with the used levels
-  Set file_, used_, target_, good_;
+  Set rig_levels_, active_levels_, target_, previous_levels_;
   BreakAway break_away_;
   std::array<bool, 2> at_bound_{};   ///< a block of the present move was learnt with the payload at its bound
   std::array<double, 2> ceiling_{};  ///< largest permitted level / level of the rig file, by direction
@@ -55,7 +55,7 @@ class AxisAdaptation {
   int refused_in_a_row_ = 0, excess_blocks_ = 0;
   double speed_ = 0;  ///< magnitude, m/s or rad/s
   bool moves_ = false;
-  double used_squares_ = 0, good_squares_ = 0;
+  double active_squares_ = 0, previous_squares_ = 0;
   int judged_blocks_ = 0, frozen_moves_ = 0;
   bool on_trial_ = false;  ///< true: no move has judged the target yet
   AdaptationFreeze held_ = AdaptationFreeze::none;

@@ -16,7 +16,7 @@ struct Disturbance {
   double friction = 0;       ///< standard deviation of u at standstill, m/s2 or rad/s2
   bool sticks = false;
   double unit = 1;  ///< m or rad; the values above are multiples of it. Infinity: the speed has no error
-  /// Minus twice the log likelihood of the residuals it was learnt from, without constant.
+  /// Minus twice the log likelihood of the residuals from which it was learnt, without constant.
   double misfit = 0;
 };
 

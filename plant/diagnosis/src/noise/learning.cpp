@@ -59,8 +59,8 @@ class Learning {
 
   /// The likeliest of `near` and the results of searches from it. The inaccuracy of the speed has a known
   /// size, so that its ratio to the noise follows from the noise of the search before. The search is repeated
-  /// only with inaccurate times. With them, and with the noise at its lower bound, a result can be less
-  /// likely than `near`.
+  /// only with inaccurate times. The result can be less likely than `near` with inaccurate times, or if the
+  /// noise is at its lower bound.
   Disturbance likeliest_near(const Disturbance& near) {
     Disturbance best = near, last = near;
     best.misfit = misfit_of(near);

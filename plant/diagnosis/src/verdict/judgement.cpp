@@ -75,9 +75,9 @@ class Judgement {
   }
 
  private:
-  /// Tests the errors of the drives of the calibrated base model. An effect on a drive whose error noise and
-  /// accuracy do not explain is a cause, however little it changes the mean error, unless the accuracy of its
-  /// quantity is stated.
+  /// Tests the errors of the drives of the calibrated base model. If noise and accuracy do not explain the
+  /// error of a drive, every accepted candidate on this drive is a cause, also one that changes the mean
+  /// error little. Exception: candidates with a stated accuracy.
   void test_drives() {
     Crane base = data_.study().base();
     for (const Effect& inaccuracy : all_.base.nuisance.inaccuracies)
@@ -113,7 +113,7 @@ class Judgement {
       remainder.predictable_fraction = patterns[0].fraction;
       return true;
     }
-    // A force that acts a few times hides no cause that has been found beside it.
+    // Short forces do not invalidate a cause that was found.
     for (const ShortForce& force : forces) remainder.from.push_back(described(force, data_.runs()));
     if (causes_.empty() && !forces.empty()) return true;
     std::vector<Pattern> left = residual_patterns(data_, all_, losing_, seed_);

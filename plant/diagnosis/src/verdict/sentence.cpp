@@ -57,8 +57,8 @@ std::string verdict_of(const Diagnosis& d) {
          (from.empty() ? std::string{"."} : " (" + from[0] + ").");
 }
 
-/// Evidence for causes whose effect on the held-out error noise and disturbance hide, as a sentence with a
-/// space before it; empty: the error is significantly smaller.
+/// Sentence, with a space before it, for causes that increase the held-out likelihood but do not decrease the
+/// held-out error significantly; otherwise empty.
 std::string hidden_gain(const Diagnosis& d) {
   const bool has_causes = d.verdict != Verdict::none && d.verdict != Verdict::unknown;
   if (!has_causes || !(d.held_out.nats > 0) || d.held_out.gain_ci95[0] > 0) return "";

@@ -15,11 +15,10 @@
 /// the swing rate, a swing encoder or the encoder of the axis that carries the load has failed.
 ///
 /// Push: a pushed load gains its speed within one or two samples and swings as a pendulum
-/// afterwards. A sum above the limit counts as a push, and is cleared, if the sum has grown for at
-/// most kPush_ticks and at least half of the sum is a change of the swing rate in the same
-/// direction; at most one push per kPushInterval_s. If a swing encoder that counted before the push
-/// then stands still for kNoCount_ticks, the encoder has failed: a push does not stop a load
-/// exactly.
+/// afterwards. A sum above the limit counts as a push, and is cleared, if (a) the sum has grown for at
+/// most kPush_ticks and (b) at least half of the sum is a change of the swing rate in the direction of
+/// the sum. One push per kPushInterval_s is permitted. If a swing encoder that counted before the push
+/// then stands still for kNoCount_ticks, the encoder has failed, because no push stops a load exactly.
 ///
 /// If crane/state contains filtered swing angles, the check filters the positions in the same way: the
 /// balance then holds for the filtered motion. After the first sample, and after a gap of more than 0.1 s,

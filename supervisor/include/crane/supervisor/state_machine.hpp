@@ -65,8 +65,8 @@ struct Memory {
   State state = State::boot;
   Cause cause = Cause::start;
   double entered_s = 0;      ///< time at which `state` was entered
-  double clear_since_s = 0;  ///< time since which no cause blocks a reset
-  double fresh_since_s = 0;  ///< time since which state and demand are fresh
+  double clear_since_s = 0;  ///< last time at which a cause blocked a reset
+  double fresh_since_s = 0;  ///< last time at which state or demand was stale
   /// HOLD: time at which HOLD was entered (end of arming or of a move)
   double idle_since_s = 0;
   double release_since_s = 0;           ///< ARMING: time at which the brakes were commanded open

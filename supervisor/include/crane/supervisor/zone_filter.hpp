@@ -32,8 +32,8 @@ struct ZoneMemory {
   PerAxis applied_v{}, previous_applied_v{};
   /// true: the previous tick was filtered (brakes commanded open, no homing)
   bool watching = false;
-  /// m, least permitted clearance of each zone of the limits; below 0 while a load inside the margin of this
-  /// zone leaves it
+  /// m, least permitted clearance of each zone of the limits. Usually 0; negative while a load that is inside
+  /// the margin of this zone leaves the zone
   std::array<double, control::kMostZones> permitted_m{};
 };
 

@@ -48,8 +48,8 @@ struct Options {
   std::string discovery_server{};
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
   /// True: Cyclone DDS sends heartbeats every 2 ms on loop-back, too, instead of every 100 ms.
-  /// Publisher::wait_until_acknowledged() then returns soon after the reception. Other vendors ignore this
-  /// option.
+  /// Publisher::wait_until_acknowledged() then returns about 2 ms after the reception at the latest. Other
+  /// vendors ignore this option.
   bool fast_heartbeats = false;
   /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
   /// needs no credentials.
@@ -84,9 +84,9 @@ using EventHandler = std::function<void(const Event&)>;
 
 /// Quality of service of one endpoint beyond that of its topic.
 struct EndpointOptions {
-  /// Publisher of a loop or script topic (idl/README.md): keeps its samples for late-joining readers;
-  /// publishers of log and status topics always do. Subscriber: also receives samples that publishers kept
-  /// from the time before it joined; subscribers of status topics always do.
+  /// Publisher of a loop or script topic (idl/README.md): keeps its samples for readers that join later.
+  /// Publishers of log and status topics always keep them. Subscriber: also receives the samples that were
+  /// kept before it joined. Subscribers of status topics always receive them.
   bool history = false;
   /// EventKind::deadline_missed when no sample arrives for this time; 0: no deadline. A reader matches only
   /// writers that offer a deadline and a lease at least as short. The memory back end has no clock and

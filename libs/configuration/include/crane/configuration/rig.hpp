@@ -20,7 +20,12 @@
 
 namespace crane::configuration {
 
-enum class RigKind { tower, gantry, drive_axis, pendulum };
+enum class RigKind {
+  tower,       ///< trolley and slew axis, with or without hoist
+  gantry,      ///< trolley, with or without hoist
+  drive_axis,  ///< one drive without load
+  pendulum     ///< load without drive
+};
 
 /// Incremental encoder of one coordinate.
 struct Encoder {
@@ -38,9 +43,9 @@ struct Encoder {
 struct Drive : control::DriveLimits {
   int dac_channel = 0;                ///< board analog output
   int sign = 1;                       ///< +1 or -1: direction of motion for a positive voltage
-  double reference_speed = 0;         ///< planner: V_max of (3.43), per second
-  double reference_acceleration = 0;  ///< planner: a_max of (3.43), per second squared
-  double reference_jerk = 0;          ///< planner: j_max of S-curves, per second cubed
+  double reference_speed = 0;         ///< planner: V_max of (3.43), m/s or rad/s
+  double reference_acceleration = 0;  ///< planner: a_max of (3.43), m/s2 or rad/s2
+  double reference_jerk = 0;          ///< planner: j_max of S-curves, m/s3 or rad/s3
 
   bool operator==(const Drive&) const = default;
 };
@@ -153,9 +158,9 @@ class ConfigurationError : public std::runtime_error {
 /// bit for bit, except for its path. Values that follow from other fields (volts, lengths and period of the
 /// design) are not written.
 [[nodiscard]] std::string to_toml(const Rig& rig);
-/// Hash of to_toml(rig) and the name of a controller: FNV-1a with 32 bits; 1 replaces 0. Two texts that
-/// differ in one character have different hashes, except for the pair 0 and 1; other different texts have
-/// equal hashes with a probability of about 2^-32.
+/// Hash of to_toml(rig) and the name of a controller: 32-bit FNV-1a. 1 replaces the hash 0, which means
+/// "differs". Texts that differ in one character have different hashes, except for the pair 0 and 1; other
+/// different texts have equal hashes with a probability of about 2^-32.
 [[nodiscard]] std::uint32_t digest(const Rig& rig, std::string_view controller);
 /// The table [[zone]] of one zone.
 [[nodiscard]] std::string to_toml(const control::Zone& zone);

@@ -17,9 +17,9 @@ namespace crane::runtime {
 
 struct JoinPolicy {
   bool in_order = true;  ///< true: lockstep; false: real time
-  /// Real time: longest wait for the other inputs after the poll() that opens the tick. If a poll()
-  /// comes bound_ns / 2 or more after the end of the wait, the wait is extended once, to bound_ns /
-  /// 2 after this poll(). 0: the second poll() finishes the tick without its missing inputs.
+  /// Real time: longest wait for the other inputs after the poll() that opens the tick. If the first poll()
+  /// after the wait is late by bound_ns / 2 or more, the tick waits once more, for bound_ns / 2. 0: no wait;
+  /// the second poll() finishes the tick without its missing inputs.
   std::int64_t bound_ns = 0;
   std::size_t depth = 8;       ///< ticks that an input may be ahead of the slowest input
   std::int64_t period_ns = 0;  ///< real time: period of the ticks, for the check of tick numbers; 0: no check

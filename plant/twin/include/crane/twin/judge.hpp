@@ -119,7 +119,7 @@ class Judge {
   std::optional<Finding> finding_;
   std::optional<std::size_t> named_hypothesis_;
   bool named_ = false, is_step_ = false;
-  std::size_t onset_blocks_ = 0;  ///< duration of the deviation, blocks
+  std::size_t deviation_blocks_ = 0;  ///< duration of the deviation, blocks
   int blocks_of_doubt_ = 0, quiet_blocks_ = 0;
   double return_evidence_ = 0;
 };

@@ -27,9 +27,9 @@ struct Sample {
 
 enum class State : std::uint8_t {
   waiting,   ///< no prediction, or Design::settle_s after a restart has not passed
-  learning,  ///< Phase::learning
-  watching,  ///< Phase::watching
-  deviates   ///< Phase::deviates
+  learning,  ///< learns the in-control scatter; ends after Design::learn_s of motion
+  watching,  ///< tests the residual; ends with an alarm
+  deviates   ///< names the cause; ends when the residual is in control again
 };
 
 /// Result of one tick.
