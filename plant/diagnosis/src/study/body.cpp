@@ -31,8 +31,8 @@ Problem whitened_by(const Problem& plain, const Replays& crane) {
 }
 
 /// Rms difference between two simulations, as a share of the rms motion, up to which the slopes of one serve
-/// as slopes of the other. If the slopes differ by the same share, their cosine is sqrt(1 - kAlikeShare^2),
-/// and a score has all but 4 % of its information.
+/// as slopes of the other: a direction whose cosine to the true one is sqrt(1 - kAlikeShare^2) has all but 4
+/// % of its information.
 constexpr double kAlikeShare = 0.2;
 
 /// Whether the simulations in windows differ by at most kAlikeShare of the motion, in each output.

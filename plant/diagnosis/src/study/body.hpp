@@ -35,7 +35,10 @@ class Body {
 [[nodiscard]] Evaluation evaluated_near(const Body& body, const Replays& crane, ShowsIn parts,
                                         const Evaluation& near);
 
-/// Simulated outputs of an evaluation.
+/// Simulated outputs of an evaluation by window, not whitened.
+struct Simulation {
+  PartVectors drive, load;
+};
 [[nodiscard]] Simulation simulation_of(const Evaluation& at);
 /// Parts in which the simulation with the effects differs from another one by more than a fifth of the
 /// motion. In the other parts, a slope of the other simulation is nearly that of the hypothesis.

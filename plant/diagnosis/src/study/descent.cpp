@@ -50,7 +50,7 @@ double predicted_decrease_of(const BlockScores& at, const VectorXd& step) {
 
 /// Groups of values that change together in a step: all values; then, if there are several effects, the
 /// values of each effect alone, so that an effect with a discontinuous loss does not block the others.
-/// @param alone  whether there are groups of one effect
+/// @param alone  false: no effect alone
 std::vector<std::vector<Index>> step_groups(const Effects& effects, bool alone) {
   std::vector<std::vector<Index>> groups(1);
   Index next = 0;
@@ -82,11 +82,12 @@ std::size_t own_values(const Effects& effects, std::size_t inaccuracies) {
 
 class GaussNewton {
  public:
-  GaussNewton(const WhitenedData& data, Fitted& best, const Descent& descent, FitSlopes& along)
+  GaussNewton(const WhitenedData& data, Fitted& best, const Descent& descent, Slopes& along)
       : data_(data), best_(best), descent_(descent), along_(along) {
     least_ = total_loss(best.train, descent.loss);
     enough_ = descent.loss == Loss::robust ? descent.least_gain
                                            : std::max(kLeastGainOfSquares, kLeastShareOfSquares * least_);
+    if (descent.inaccuracies > 0) computed_at_ = simulation_of(best.train);
   }
 
   /// @return as descend()
@@ -95,12 +96,8 @@ class GaussNewton {
       const BlockScores scores = scores_here();
       if (round >= kLeastRounds && !can_beat(scores)) return false;
       bool as_predicted = true;
-      const bool gained = gained_in_round(scores, as_predicted) >= enough_;
-      if (!gained && !mispredicted_) break;
-      if (!gained)
-        forget_slopes_along_inaccuracies({true, true});
-      else if (!as_predicted)
-        forget_old_slopes();
+      if (gained_in_round(scores, as_predicted) < enough_) break;
+      if (!as_predicted) forget_old_slopes();
     }
     return true;
   }
@@ -108,8 +105,8 @@ class GaussNewton {
  private:
   BlockScores scores_here() {
     if (!whitened_) {
-      along_.of_values = data_.plain_slopes(best_.effects, best_.train, std::move(along_.of_values));
-      whitened_ = data_.whitened(along_.of_values, best_.train);
+      along_ = data_.plain_slopes(best_.effects, best_.train, std::move(along_));
+      whitened_ = data_.whitened(along_, best_.train);
     }
     return data_.scores(best_.train, *whitened_, descent_.loss);
   }
@@ -168,36 +165,29 @@ class GaussNewton {
   /// simulation is unlike the one at which they were computed.
   void forget_old_slopes() {
     whitened_.reset();
-    along_.of_values.forget(0, own_values(best_.effects, descent_.inaccuracies), {true, true});
+    const std::size_t own = own_values(best_.effects, descent_.inaccuracies);
+    along_.forget(0, own, {true, true});
     if (descent_.inaccuracies == 0) return;
-    const ShowsIn old = unlike(data_.body(), best_.effects, best_.train, along_.inaccuracies_at);
-    forget_slopes_along_inaccuracies(old);
-    mispredicted_ = !old.drive || !old.load;
-  }
-
-  void forget_slopes_along_inaccuracies(ShowsIn parts) {
-    whitened_.reset();
-    mispredicted_ = false;
-    Slopes& slopes = along_.of_values;
-    slopes.forget(own_values(best_.effects, descent_.inaccuracies), slopes.size(), parts);
+    const ShowsIn unlike_now = unlike(data_.body(), best_.effects, best_.train, computed_at_);
+    along_.forget(own, along_.size(), unlike_now);
     Simulation now = simulation_of(best_.train);
-    if (parts.drive) along_.inaccuracies_at.drive = std::move(now.drive);
-    if (parts.load) along_.inaccuracies_at.load = std::move(now.load);
+    if (unlike_now.drive) computed_at_.drive = std::move(now.drive);
+    if (unlike_now.load) computed_at_.load = std::move(now.load);
   }
 
   const WhitenedData& data_;
   Fitted& best_;
   const Descent& descent_;
-  FitSlopes& along_;
+  Slopes& along_;
   double damping_ = kFirstDamping;
   double least_ = 0, enough_ = 0;   ///< present loss; least decrease of a round that is not the last
   std::optional<Slopes> whitened_;  ///< `along_`
-  bool mispredicted_ = false;       ///< by slopes along the inaccuracies that are still used
+  Simulation computed_at_;          ///< at which the slopes along the inaccuracies were computed
 };
 
 }  // namespace
 
-bool descend(const WhitenedData& data, Fitted& best, const Descent& descent, FitSlopes& along) {
+bool descend(const WhitenedData& data, Fitted& best, const Descent& descent, Slopes& along) {
   return GaussNewton(data, best, descent, along).run();
 }
 

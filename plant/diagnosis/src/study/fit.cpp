@@ -19,34 +19,34 @@ Effects initial_values(const WhitenedData& data, const Effects& effects, const E
 }
 
 Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat, const Evaluation& near,
-           FitSlopes& along) {
+           Slopes& along) {
   Fitted start;
   start.effects = std::move(effects);
   start.train = data.evaluated(start.effects, near);
   Fitted best = start;
   if (needs_pattern_search(best.effects)) step_around(data, best, &Evaluation::loss, false);
   if (!same_values(start.effects, best.effects)) along = {};
-  along.of_values.keep_first(static_cast<std::size_t>(free_values_of(best.effects).values.size()));
+  along.keep_first(static_cast<std::size_t>(free_values_of(best.effects).values.size()));
   start = best;
   const bool can_beat = descend(data, best, {.loss = Loss::squares, .loss_to_beat = loss_to_beat}, along);
   if (start.train.loss < best.train.loss) best = start, along = {};
   if (can_beat) descend(data, best, {.loss_to_beat = loss_to_beat}, along);
-  along.of_values = data.plain_slopes(best.effects, best.train, std::move(along.of_values));
-  set_block_std_dev(data, data.whitened(along.of_values, best.train), {}, best);
+  along = data.plain_slopes(best.effects, best.train, std::move(along));
+  set_block_std_dev(data, data.whitened(along, best.train), {}, best);
   best.nuisance = data.nuisance();
   return best;
 }
 
 Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat, const Evaluation& near) {
-  FitSlopes along;
+  Slopes along;
   return fit(data, std::move(effects), loss_to_beat, near, along);
 }
 
 Fitted converged(const WhitenedData& data, Fitted fitted) {
-  FitSlopes along;
+  Slopes along;
   descend(data, fitted, {.least_gain = kLeastGainOfVerdict}, along);
-  const Slopes slopes = data.plain_slopes(fitted.effects, fitted.train, std::move(along.of_values));
-  set_block_std_dev(data, data.whitened(slopes, fitted.train), {}, fitted);
+  along = data.plain_slopes(fitted.effects, fitted.train, std::move(along));
+  set_block_std_dev(data, data.whitened(along, fitted.train), {}, fitted);
   return fitted;
 }
 

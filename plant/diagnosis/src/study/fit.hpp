@@ -12,9 +12,9 @@ namespace crane::diagnosis {
 /// Fits the effects from the given values, within their bounds.
 /// @param loss_to_beat  training loss; the fit stops early when it cannot fall below
 /// @param near  evaluation of some of the effects; gives the initial starts of the windows
-/// @param along  plain slopes along the effects, near their values, or empty; on return near the result
+/// @param along  plain slopes of the effects, at their values, or empty; those of the result on return
 [[nodiscard]] Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat,
-                         const Evaluation& near, FitSlopes& along);
+                         const Evaluation& near, Slopes& along);
 [[nodiscard]] Fitted fit(const WhitenedData& data, Effects effects, double loss_to_beat,
                          const Evaluation& near);
 

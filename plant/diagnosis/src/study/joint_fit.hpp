@@ -8,13 +8,13 @@ namespace crane::diagnosis {
 /// simulation has nearly the same ones.
 struct BaseSlopes {
   Simulation simulation;
-  std::vector<PlainSlope> of_values;  ///< by value of the inaccuracies; an empty part is unknown
+  std::vector<PlainSlope> of_values;  ///< by value of the inaccuracies; empty: unknown
 };
 
 /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data; all
 /// inaccuracies if there are no effects. Sets the inaccuracies of `fitted.nuisance`.
-/// @param along  plain slopes along the effects, or also along these inaccuracies, near the values of the
-/// fit; on return along both, near the result; without effects as far as known
-void fit_jointly(const WhitenedData& data, const BaseSlopes& base, Fitted& fitted, FitSlopes& along);
+/// @param along  plain slopes of the effects, or also of these inaccuracies, at the values of the fit; those
+/// of both on return
+void fit_jointly(const WhitenedData& data, const BaseSlopes& base, Fitted& fitted, Slopes& along);
 
 }  // namespace crane::diagnosis

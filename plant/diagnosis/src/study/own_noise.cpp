@@ -104,14 +104,6 @@ bool fitted_jointly(const Fitted& fitted) {
          !visible_beside(fitted.nuisance.inaccuracies, fitted.effects).empty();
 }
 
-/// The slopes of the base model. @param along  slopes along its inaccuracies
-BaseSlopes slopes_of_base(const FitSlopes& along) {
-  BaseSlopes slopes{along.inaccuracies_at, {}};
-  for (std::size_t i = 0; i < along.of_values.size(); ++i)
-    slopes.of_values.push_back(along.of_values.of_value(i));
-  return slopes;
-}
-
 }  // namespace
 
 Nuisance learnt_nuisance(const Study& study, const Effects& effects) {
@@ -127,8 +119,9 @@ BaseModel learnt_base_model(const Study& study) {
   auto data = std::make_unique<const WhitenedData>(study, base.exact);
   Fitted fitted;
   fitted.train = data->base();
+  base.slopes.simulation = simulation_of(fitted.train);
   double least = sum(deviance_of(data->body(), fitted.train));
-  FitSlopes along;
+  Slopes along;
   for (int round = 0; round < kMostNoiseRounds; ++round) {
     fit_jointly(*data, {}, fitted, along);
     auto next = std::make_unique<const WhitenedData>(study, own_nuisance(*data, fitted, {}, fitted.nuisance));
@@ -136,11 +129,12 @@ BaseModel learnt_base_model(const Study& study) {
     const double gained = least - sum(deviance_of(next->body(), fitted.train));
     if (gained < 0) break;
     data = std::move(next);
-    base.slopes = slopes_of_base(along);
+    base.slopes.simulation = simulation_of(fitted.train);
     if (gained < kWorthARound) break;
     least -= gained;
   }
   base.calibrated = data->nuisance();
+  for (std::size_t i = 0; i < along.size(); ++i) base.slopes.of_values.push_back(along.of_value(i));
   return base;
 }
 
@@ -168,8 +162,8 @@ Fitted first_fit(const WhitenedData& data, const Effects& effects, const Fitted&
 Fitted refit_with_own_noise(const Study& study, const BaseModel& base, const Fitted& first_fit) {
   Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
-  // The noise changes from round to round; slopes before whitening are used while they are nearly right.
-  FitSlopes along;
+  // The noise changes from round to round; slopes before whitening are known until the values change.
+  Slopes along;
   Nuisance nuisance = first_fit.first_nuisance;
   for (int round = 0; round < kMostNoiseRounds; ++round) {
     const WhitenedData data(study, nuisance);

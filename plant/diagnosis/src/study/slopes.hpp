@@ -13,18 +13,13 @@ namespace crane::diagnosis {
 /// One vector per window or piece of a part of the data, for example the changes of its outputs per unit.
 using PartVectors = std::vector<Eigen::VectorXd>;
 
-/// Simulated outputs of an evaluation by window, not whitened.
-struct Simulation {
-  PartVectors drive, load;
-};
-
 /// Slopes along one value, not whitened: independent of the noise. Empty where the value is not visible.
 struct PlainSlope {
   PartVectors drive, equation_error, load;
 };
 
 /// Slopes along several values, whitened or plain, by value and by window or piece. Empty where a value is
-/// not visible, or its plain slope is not known.
+/// not visible or its slope is not known.
 struct Slopes {
   std::vector<PartVectors> drive, equation_error, load;
 
@@ -51,13 +46,6 @@ struct Slopes {
   void keep_first(std::size_t values) {
     for (auto* of : {&drive, &equation_error, &load}) of->resize(std::min(of->size(), values));
   }
-};
-
-/// Plain slopes along the values of a fit, as far as known: first those of its effects, then those of the
-/// inaccuracies that are fitted beside them.
-struct FitSlopes {
-  Slopes of_values;
-  Simulation inaccuracies_at;  ///< at which the slopes along the inaccuracies were computed
 };
 
 }  // namespace crane::diagnosis

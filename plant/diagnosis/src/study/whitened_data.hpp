@@ -30,8 +30,8 @@ class WhitenedData {
   /// Evaluation of a fit that was evaluated in another noise.
   [[nodiscard]] Evaluation evaluated_again(const Fitted& fitted) const;
 
-  /// Plain slopes along the values of the effects. @param known  slopes of the leading values; a part that
-  /// is empty is computed
+  /// Plain slopes along the values of the effects. @param known  as far as known: of the leading values, in
+  /// the parts that are not empty
   [[nodiscard]] Slopes plain_slopes(const Effects& effects, const Evaluation& at, Slopes known = {}) const;
   /// Plain slope of a crane that differs from that of `at` by `step`. @param unmoved plain residuals of the
   /// equation error of `at`; used if the drive is among the parts
