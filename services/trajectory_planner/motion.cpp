@@ -32,16 +32,6 @@ control::Shaping shaping_of(control::ReferenceShape shape, control::Shaping of_r
 Motion::Motion(const configuration::Rig& rig, control::ReferenceShape shape)
     : rig_{rig}, shape_{shape}, shaping_{shaping_of(shape, rig.planning.shaping)} {}
 
-control::AxisReference Motion::Braking::at(double time_s) const noexcept {
-  const double direction = speed < 0 ? -1 : 1;
-  const double duration_s = std::abs(speed) / deceleration;
-  const double t = std::clamp(time_s, 0.0, duration_s);
-  const bool rests = time_s >= duration_s;
-  return {.position = start + speed * t - direction * deceleration * t * t / 2,
-          .speed = rests ? 0 : speed - direction * deceleration * t,
-          .acceleration = rests ? 0 : -direction * deceleration};
-}
-
 void Motion::begin_at(std::uint64_t tick) noexcept {
   start_tick_ = tick;
   slowing_.reset();
@@ -55,15 +45,11 @@ double Motion::time_s(std::uint64_t tick) const noexcept {
 }
 
 void Motion::follow(const control::Measurement& measured, std::uint64_t tick) noexcept {
-  is_braking_ = stick_.follows = false;
-  excitation_.reset();
-  creeping_.reset();
-  planned_.reset();
-  route_.reset();
-  shaper_ = {};
-  begin_at(tick);
+  Profiles rest;
   for (std::size_t i = 0; i < kAxes; ++i)
-    trajectory_[i] = control::step_profile(measured.position[i], measured.position[i]);
+    rest.trajectory[i] = control::step_profile(measured.position[i], measured.position[i]);
+  active_ = rest;
+  begin_at(tick);
 }
 
 control::AxisProfile Motion::planned(std::size_t axis, double start, double target,
@@ -89,18 +75,16 @@ control::Shaper Motion::shaper(control::Shaping shaping, double cable_m) const {
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {
   const auto now = at(tick);
   const ProfileLimits limits = profile_limits(rig_, shape_, now, move);
+  Profiles next;
   for (std::size_t i = 0; i < kAxes; ++i)
-    trajectory_[i] = planned(i, now[i].position, move.selected[i] ? move.target[i] : now[i].position, limits);
-  trajectory_ = control::synchronised(trajectory_);
+    next.trajectory[i] =
+        planned(i, now[i].position, move.selected[i] ? move.target[i] : now[i].position, limits);
+  next.trajectory = control::synchronised(next.trajectory);
   const bool swings =
-      trajectory_[control::kTrolley].duration_s() > 0 || trajectory_[control::kSlew].duration_s() > 0;
-  const auto& cable = trajectory_[control::kHoist];  // shaped for the mean length of the move
-  shaper_ = swings ? shaper(shaping_, (cable.start + cable.target) / 2) : control::Shaper{};
-  is_braking_ = stick_.follows = false;
-  creeping_.reset();
-  planned_.reset();
-  route_.reset();
-  excitation_.reset();
+      next.trajectory[control::kTrolley].duration_s() > 0 || next.trajectory[control::kSlew].duration_s() > 0;
+  const auto& cable = next.trajectory[control::kHoist];  // shaped for the mean length of the move
+  if (swings) next.shaper = shaper(shaping_, (cable.start + cable.target) / 2);
+  active_ = next;
   begin_at(tick);
 }
 
@@ -134,56 +118,39 @@ std::optional<control::PlanProblem> Motion::plan_for(const MoveTarget& move,
 
 void Motion::start(const control::PlanProblem& problem, const control::Plan& plan,
                    std::uint64_t tick) noexcept {
-  is_braking_ = stick_.follows = false;
-  creeping_.reset();
-  excitation_.reset();
-  shaper_ = {};
-  for (std::size_t i : {control::kTrolley, control::kSlew})
-    trajectory_[i] = control::step_profile(problem.to[i], problem.to[i]);
-  trajectory_[control::kHoist] = control::step_profile(problem.cable_m, problem.cable_m);
-  route_.reset();
-  planned_ = {problem, plan};
+  active_ = Planned{&rig_.design, problem, plan};
   begin_at(tick);
 }
 
 void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
   const auto now = at(tick);
+  Profiles next{.trajectory = {}, .shaper = {}, .excitation = excitation};
   for (std::size_t i = 0; i < kAxes; ++i)
-    trajectory_[i] = control::step_profile(now[i].position, now[i].position);
-  is_braking_ = stick_.follows = false;
-  creeping_.reset();
-  planned_.reset();
-  route_.reset();
-  shaper_ = {};
-  excitation_ = excitation;
+    next.trajectory[i] = control::step_profile(now[i].position, now[i].position);
+  active_ = next;
   begin_at(tick);
 }
 
 void Motion::follow_homing_speed(const std::array<double, kAxes>& speed, const control::Measurement& measured,
                                  std::uint64_t tick) noexcept {
-  if (creeping_ && creeping_->speed == speed) return;
-  Creeping creeping{.speed = speed};
+  const auto* creeping = std::get_if<Creeping>(&active_);
+  if (creeping != nullptr && creeping->speed == speed) return;
+  Creeping next{.speed = speed};
   const auto now = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)
-    creeping.start[i] = speed[i] != 0 ? measured.position[i] : now[i].position;
-  creeping_ = creeping;
-  stick_.follows = false;
-  planned_.reset();
-  route_.reset();
+    next.start[i] = speed[i] != 0 ? measured.position[i] : now[i].position;
+  active_ = next;
   begin_at(tick);
 }
 
 void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noexcept {
-  is_braking_ = true;
-  stick_.follows = false;
-  creeping_.reset();
-  planned_.reset();
-  route_.reset();
-  begin_at(tick);
+  Braking braking;
   for (std::size_t i = 0; i < kAxes; ++i)
-    braking_[i] = {.start = measured.position[i],
-                   .speed = measured.speed[i],
-                   .deceleration = std::max(rig_.drives[i].reference_acceleration, 1e-3)};
+    braking.axis[i] = {.start = measured.position[i],
+                       .speed = measured.speed[i],
+                       .deceleration = std::max(rig_.drives[i].reference_acceleration, 1e-3)};
+  active_ = braking;
+  begin_at(tick);
 }
 
 void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) noexcept {
@@ -207,62 +174,36 @@ void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) no
   }
   if (limits.axis[control::kHoist].speed > 0)
     limits.longest_cable_m = std::max(limits.longest_cable_m, limits.axis[control::kHoist].high);
-  is_braking_ = false;
-  creeping_.reset();
-  planned_.reset();
-  route_.reset();
-  excitation_.reset();
+  auto& stick = active_.emplace<Stick>();  // in place: too large for the stack of a real-time thread
+  stick.limits = limits;
+  control::begin(limits, now, stick.memory);
+  stick.reference = now;
+  stick.tick = tick;
   begin_at(tick);
-  stick_.limits = limits;
-  control::begin(limits, now, stick_.memory);
-  stick_.reference = now;
-  stick_.tick = tick;
-  stick_.follows = true;
 }
 
 void Motion::drive(const std::array<double, kAxes>& deflection, std::uint64_t tick) noexcept {
-  if (!stick_.follows) return;
+  auto* stick = std::get_if<Stick>(&active_);
+  if (stick == nullptr) return;
   constexpr std::uint64_t kMostTicks = 100;  // the supervisor stops the crane before a gap becomes longer
-  if (tick > stick_.tick + kMostTicks) stick_.tick = tick - kMostTicks;
+  if (tick > stick->tick + kMostTicks) stick->tick = tick - kMostTicks;
   std::array<double, kAxes> wanted{};
-  for (std::size_t i = 0; i < kAxes; ++i) wanted[i] = deflection[i] * stick_.memory.limits[i].speed;
-  for (; stick_.tick < tick; ++stick_.tick) {
-    stick_.reference = control::step(stick_.limits, wanted, stick_.memory);
-    stick_.reference.feed_forward_v = control::feed_forward(rig_.design, stick_.limits, stick_.memory);
+  for (std::size_t i = 0; i < kAxes; ++i) wanted[i] = deflection[i] * stick->memory.limits[i].speed;
+  for (; stick->tick < tick; ++stick->tick) {
+    stick->reference = control::step(stick->limits, wanted, stick->memory);
+    stick->reference.feed_forward_v = control::feed_forward(rig_.design, stick->limits, stick->memory);
   }
-  if (!control::at_rest(stick_.memory)) begin_at(tick);  // arrived() waits from the end of the motion on
+  if (!control::at_rest(stick->memory)) begin_at(tick);  // arrived() waits from the end of the motion on
 }
 
 control::Reference Motion::on_path(std::uint64_t tick) const noexcept {
-  if (stick_.follows) return stick_.reference;
-  if (creeping_) {
-    control::Reference reference;
-    for (std::size_t i = 0; i < kAxes; ++i)
-      reference[i] = {.position = creeping_->start[i] + creeping_->speed[i] * time_s(tick),
-                      .speed = creeping_->speed[i],
-                      .acceleration = 0};
-    return reference;
-  }
-  if (planned_ && !is_braking_)
-    return control::reference_at(rig_.design, planned_->problem, planned_->plan, time_s(tick));
-  if (route_ && !is_braking_) {
-    control::Reference reference;
-    for (std::size_t i = 0; i < kAxes; ++i) {
-      const control::RouteOfAxis axis{*route_, i};
-      reference[i] = i == control::kHoist ? axis.at(time_s(tick)) : shaper_.at(axis, time_s(tick));
-    }
-    return reference;
-  }
-  if (!is_braking_) {
-    auto reference = control::reference_at(trajectory_, time_s(tick));
-    for (const auto axis : {control::kTrolley, control::kSlew})
-      reference[axis] = shaper_.at(trajectory_[axis], time_s(tick));
-    if (excitation_) reference[excitation_->axis] = excitation_->at(time_s(tick));
-    return reference;
-  }
-  control::Reference reference;
-  for (std::size_t i = 0; i < kAxes; ++i) reference[i] = braking_[i].at(time_s(tick));
-  return reference;
+  return std::visit([time_s = time_s(tick)](const auto& motion) { return motion.at(time_s); }, active_);
+}
+
+bool Motion::reference_rests(std::uint64_t tick) const noexcept {
+  const auto* stick = std::get_if<Stick>(&active_);
+  if (stick != nullptr && !control::at_rest(stick->memory)) return false;
+  return std::ranges::all_of(at(tick), [](const auto& axis) { return axis.speed == 0; });
 }
 
 bool Motion::is_near(const control::Measurement& measured, std::uint64_t tick) const noexcept {
@@ -275,15 +216,11 @@ bool Motion::is_near(const control::Measurement& measured, std::uint64_t tick) c
 }
 
 bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept {
-  if (creeping_ || (stick_.follows && !control::at_rest(stick_.memory))) return false;
   constexpr double kSlow = 0.01;     // largest speed, m/s, rad/s
   constexpr double kLongest_s = 20;  // longest wait; friction may hold an axis outside the band
-  const double profile_s = planned_ ? planned_->plan.duration_s
-                           : route_ ? route_->duration_s()
-                                    : control::duration_s(trajectory_);
-  const double end_s = stick_.follows ? 0
-                       : excitation_  ? excitation_->duration_s
-                                      : profile_s + shaper_.delay_s();
+  const auto* stick = std::get_if<Stick>(&active_);
+  if (stick != nullptr && !control::at_rest(stick->memory)) return false;
+  const double end_s = std::visit([](const auto& motion) { return motion.duration_s(); }, active_);
   if (time_s(tick) > end_s + kLongest_s) return true;
   const auto reference = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)

@@ -1,18 +1,17 @@
 #pragma once
-/// The reference of the trajectory planner, without the bus: the active profile of each axis and its start
-/// tick.
+/// The reference of the trajectory planner, without the bus: the active motion and its start tick.
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "crane/configuration/rig.hpp"
-#include "crane/control/excitation.hpp"
 #include "crane/control/law.hpp"
-#include "crane/control/route.hpp"
 #include "crane/control/shaper.hpp"
 #include "crane/control/stick.hpp"
 #include "crane/control/time_optimal.hpp"
 #include "crane/control/trajectory.hpp"
+#include "trajectory_planner/motion_kinds.hpp"
 #include "trajectory_planner/profile_limits.hpp"
 
 namespace crane::services {
@@ -24,15 +23,18 @@ class Motion {
 
   /// Sets the reference to the measured position, while the crane is not under control.
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
-  /// Begins a move at `tick` from the present reference.
+  /// Begins a move at `tick` from the present reference. @pre reference_rests(tick), as for all functions
+  /// that begin a motion from the present reference: a motion that begins at speed would pass the limits
   void start(const MoveTarget& move, std::uint64_t tick);
-  /// Begins to follow a path around zones at `tick` from the present reference.
-  /// @param path  around zones, for `move` from the present reference
-  void start(const MoveTarget& move, const control::Path& path, const control::PathSpace& space,
-             std::uint64_t tick);
-  /// Slows the reference down to rest along its path, which is free of zones. Has no effect on a reference
-  /// that rests, is slowing down, or follows a stick. @return tick at which the reference rests
+  /// Begins to follow a path at `tick`.
+  /// @param path  around zones, from the present reference
+  void start(const control::Path& path, const control::PathSpace& space, std::uint64_t tick);
+  /// Slows the reference down to rest along its path, which is free of zones and inside the limits. Has no
+  /// effect on a reference that rests, is slowing down, or follows a stick, which rests after its release.
+  /// @return tick at which the reference rests
   std::uint64_t slow_down(std::uint64_t tick) noexcept;
+  /// True when the reference is at rest.
+  [[nodiscard]] bool reference_rests(std::uint64_t tick) const noexcept;
   /// True when the reference is at rest, and every axis is at rest within 0.02 m or 0.02 rad of it.
   [[nodiscard]] bool rests(const control::Measurement& measured, std::uint64_t tick) const noexcept;
   /// Planning problem of a time-optimal move from the present reference. Nothing when the move needs no plan:
@@ -64,21 +66,13 @@ class Motion {
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
 
  private:
-  /// Constant deceleration from `speed` to rest; speed 0: at rest.
-  struct Braking {
-    double start = 0, speed = 0, deceleration = 1;
-    [[nodiscard]] control::AxisReference at(double time_s) const noexcept;
-  };
-  struct Creeping {
-    std::array<double, control::kAxes> speed{}, start{};
-  };
   [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target,
                                              const ProfileLimits& profile) const;
   /// Cable length within the range of the rig file: > 0 also without a load, where the measured length is 0.
   [[nodiscard]] double usable_cable_m(double cable_m) const noexcept;
   [[nodiscard]] control::Shaper shaper(control::Shaping shaping, double cable_m) const;
-  /// Style of the path that the controller can follow. @pre shaper_ is the shaper of the path
-  [[nodiscard]] control::RouteStyle route_style() const noexcept;
+  /// Style of the path that the controller can follow with `shaper`.
+  [[nodiscard]] control::RouteStyle route_style(const control::Shaper& shaper) const noexcept;
   /// Path time, s: time since the start of the reference; slower while slow_down() is active.
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
   /// Derivative of the path time with respect to time, in [0, 1].
@@ -90,31 +84,12 @@ class Motion {
   const configuration::Rig& rig_;
   control::ReferenceShape shape_;
   control::Shaping shaping_;  ///< shaping of the controller, else of the rig file
-  control::Trajectory trajectory_{};
-  control::Shaper shaper_;  ///< for trolley and slew; the hoist causes no swing
-  std::array<Braking, control::kAxes> braking_{};
-  std::optional<control::Excitation> excitation_;  ///< replaces the profile of its axis
-  std::optional<Creeping> creeping_;
-  std::optional<control::Route> route_;  ///< replaces the profiles of all axes
+  std::variant<Profiles, AroundZones, Planned, Stick, Creeping, Braking> active_;
   /// Slows the path time from begin_s on to a standstill after duration_s.
   struct Slowing {
     double begin_s = 0, duration_s = 1;
   };
   std::optional<Slowing> slowing_;
-  struct Planned {
-    control::PlanProblem problem;
-    control::Plan plan;
-  };
-  struct Stick {
-    control::StickLimits limits;
-    control::StickMemory memory;
-    control::Reference reference;
-    std::uint64_t tick = 0;  ///< tick of `reference`
-    bool follows = false;
-  };
-  Stick stick_;                     ///< replaces the profiles of all axes while it follows
-  std::optional<Planned> planned_;  ///< replaces the profiles of trolley and slew
-  bool is_braking_ = false;
   std::uint64_t start_tick_ = 0;
 };
 

@@ -9,34 +9,26 @@ namespace crane::services {
 
 using control::kAxes;
 
-void Motion::start(const MoveTarget& move, const control::Path& path, const control::PathSpace& space,
-                   std::uint64_t tick) {
+void Motion::start(const control::Path& path, const control::PathSpace& space, std::uint64_t tick) {
   const auto now = at(tick);
   plant::PerAxis start{};
   for (std::size_t i = 0; i < kAxes; ++i) start[i] = now[i].position;
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    const double target = move.selected[i] ? move.target[i] : start[i];
-    trajectory_[i] = control::step_profile(target, target);
-  }
   // Every reference is shaped, because a leg begins before the law has damped the swing of the previous leg.
   // ZV is not sufficient: it does not cancel the swing by the Coriolis force of a trolley on a turning jib.
   const bool shapes = shape_ != control::ReferenceShape::step;
   const auto shaping = shaping_ == control::Shaping::ei ? shaping_ : control::Shaping::zvd;
-  shaper_ = shapes ? shaper(shaping, path.points.front().position[control::kHoist]) : control::Shaper{};
-  route_.emplace(space, start, path.points, route_style());
-  is_braking_ = stick_.follows = false;
-  creeping_.reset();
-  planned_.reset();
-  excitation_.reset();
+  const auto shaper =
+      shapes ? this->shaper(shaping, path.points.front().position[control::kHoist]) : control::Shaper{};
+  active_ = AroundZones{{space, start, path.points, route_style(shaper)}, shaper};
   begin_at(tick);
 }
 
-control::RouteStyle Motion::route_style() const noexcept {
+control::RouteStyle Motion::route_style(const control::Shaper& shaper) const noexcept {
   // A law for step references ignores the speed of the reference: the axes lag by different amounts and would
   // leave the legs at a corner. The delay lets them arrive before the next leg.
   constexpr double kLag_s = 3, kSlowerForLag = 0.5;
   if (shape_ == control::ReferenceShape::step) return {.delay_s = kLag_s, .speed_factor = kSlowerForLag};
-  return {.blends = true, .overlaps = !(shaper_.delay_s() > 0), .delay_s = shaper_.delay_s()};
+  return {.blends = true, .overlaps = !(shaper.delay_s() > 0), .delay_s = shaper.delay_s()};
 }
 
 double Motion::rate(std::uint64_t tick) const noexcept {
@@ -67,7 +59,7 @@ std::uint64_t Motion::slow_down(std::uint64_t tick) noexcept {
   for (std::size_t i = 0; i < kAxes; ++i)
     if (now[i].speed != 0)
       longest_s = std::max(longest_s, std::abs(now[i].speed) / rig_.drives[i].reference_acceleration);
-  if (!(longest_s > 0) || stick_.follows || slowing_) return tick;
+  if (!(longest_s > 0) || std::holds_alternative<Stick>(active_) || slowing_) return tick;
   // A constant deceleration for exactly one swing period leaves no swing.
   const double period_s =
       plant::swing_period_s(rig_.design.crane.gravity_mps2, std::max(now[control::kHoist].position, 0.05));
@@ -77,9 +69,10 @@ std::uint64_t Motion::slow_down(std::uint64_t tick) noexcept {
 
 bool Motion::rests(const control::Measurement& measured, std::uint64_t tick) const noexcept {
   constexpr double kBand = 0.02, kSlow = 0.02;  // m, rad; m/s, rad/s
+  if (!reference_rests(tick)) return false;
   const auto reference = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)
-    if (rig_.drives[i].present && (reference[i].speed != 0 || std::abs(measured.speed[i]) > kSlow ||
+    if (rig_.drives[i].present && (std::abs(measured.speed[i]) > kSlow ||
                                    std::abs(measured.position[i] - reference[i].position) > kBand))
       return false;
   return true;

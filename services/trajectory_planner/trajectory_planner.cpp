@@ -86,12 +86,13 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.follow_homing_speed(homing_speed_, measured, next);
     } else {
       if (status != nullptr) {
-        start_if_new(status->move, measured, next);
+        await_if_new(status->move, next);
         begin_waiting(measured, next);
         start_planned_move(next);
         deflection_ = runtime::values(status->jog_deflection);
       }
-      motion_.drive(deflection_, next);
+      // The deflection belongs to the last session: it releases the stick of a session that ends before it.
+      motion_.drive(waiting_ ? plant::PerAxis{} : deflection_, next);
     }
     stopping_ = supervisor_ == crane_STATE_STOP_C1;
     publish(*state, next);
@@ -129,8 +130,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
                      "repeat the move");
   }
 
-  /// Executes the last move that the supervisor has accepted.
-  void start_if_new(const msg::AcceptedMove& move, const control::Measurement& measured, std::uint64_t tick) {
+  /// Takes the last move that the supervisor has accepted. It begins when the reference rests: a motion that
+  /// began at the speed of the previous one would pass its own limits of speed and position.
+  void await_if_new(const msg::AcceptedMove& move, std::uint64_t tick) {
     if (!last_seen_move_ || move.number <= *last_seen_move_) return;
     last_seen_move_ = move.number;
     drop_waiting_moves();
@@ -139,8 +141,21 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
                    "another program may have changed the status of the supervisor");
       return;
     }
-    if (move.kind == crane_REQUEST_MOVE && !path_space_.zones.empty())
-      return wait_for_rest(move, measured, tick);
+    constexpr double kLongest_s = 20;  // bounded, because friction may hold an axis away from its reference
+    const auto rest = motion_.slow_down(tick);
+    waiting_ =
+        MoveAwaitingRest{move, rest + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
+  }
+
+  void begin_waiting(const control::Measurement& measured, std::uint64_t tick) {
+    if (!waiting_ || !motion_.reference_rests(tick)) return;
+    const bool around_zones = waiting_->move.kind == crane_REQUEST_MOVE && !path_space_.zones.empty();
+    // The supervisor has searched a path from the measured position. The accepted path of the previous move
+    // connects this position with the resting point; therefore a path from the resting point exists.
+    if (around_zones && !motion_.rests(measured, tick) && tick < waiting_->last_tick) return;
+    const auto move = waiting_->move;
+    waiting_.reset();
+    if (around_zones) return start_around_zones(move, tick);
     move_number_ = move.number;
     move_kind_ = move.kind;
     if (move.kind == crane_REQUEST_JOG)
@@ -161,22 +176,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.start(move, tick);
   }
 
-  /// With zones, a new move waits until the reference rests on the accepted path of the previous move. The
-  /// supervisor has searched a path from the measured position. The accepted path connects this position with
-  /// the resting point; therefore a path from the resting point exists.
-  void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
-                     std::uint64_t tick) {
-    constexpr double kLongest_s = 20;  // bounded, because friction may hold an axis away from its reference
-    (void)motion_.slow_down(tick);
-    waiting_ = MoveAwaitingRest{move.number, target_of(move),
-                                tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
-    begin_waiting(measured, tick);
-  }
-
-  void begin_waiting(const control::Measurement& measured, std::uint64_t tick) {
-    if (!waiting_ || (!motion_.rests(measured, tick) && tick < waiting_->last_tick)) return;
-    const auto [number, move, last_tick] = *waiting_;
-    waiting_.reset();
+  void start_around_zones(const msg::AcceptedMove& accepted, std::uint64_t tick) {
+    const MoveTarget move = target_of(accepted);
     const auto now = motion_.at(tick);
     plant::PerAxis from{}, target{};
     for (std::size_t i = 0; i < control::kAxes; ++i) {
@@ -189,11 +190,11 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       path = {.outcome = control::PathOutcome::by_waypoints, .points = {{.position = target}}};
     const bool has_path =
         path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::by_waypoints;
-    if (has_path) move_number_ = number, move_kind_ = crane_REQUEST_MOVE;
+    if (has_path) move_number_ = accepted.number, move_kind_ = accepted.kind;
     if (path.outcome == control::PathOutcome::straight)
       start_straight(move, tick);
     else if (path.outcome == control::PathOutcome::by_waypoints)
-      motion_.start(move, path, path_space_, tick);
+      motion_.start(path, path_space_, tick);
     else
       node().error("no_path", "no path leads from the place where the crane rests to the target",
                    "move the load away from the zones, then to the target");
@@ -262,11 +263,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::uint64_t planning_ticks_;
   std::optional<PlanWorker> worker_;  ///< only for controllers with time-optimal references
   std::optional<MoveAwaitingPlan> pending_;
-  /// A move that waits until the crane rests.
+  /// A move that waits until the reference, and with zones also the crane, rests.
   struct MoveAwaitingRest {
-    std::uint64_t number;  ///< AcceptedMove.number
-    MoveTarget move;
-    std::uint64_t last_tick;
+    msg::AcceptedMove move;
+    std::uint64_t last_tick;  ///< until which the move waits for the crane
   };
   std::optional<MoveAwaitingRest> waiting_;
   double period_s_;

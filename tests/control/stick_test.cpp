@@ -143,16 +143,6 @@ TEST(Stick, LeavesAPositionOutsideTheLimitsInwardsOnly) {
   EXPECT_LT(crane.at[kTrolley].position, 1.8);
 }
 
-TEST(Stick, DeceleratesFromTheInitialSpeed) {
-  Reference moving = rest_at(1, 0, 1);
-  moving[kTrolley].speed = 0.4;
-  Crane crane{tower_stick(Shaping::zv, {true, false, false}), moving};
-  crane.tick({});
-  EXPECT_NEAR(crane.at[kTrolley].speed, 0.4, 1e-9) << "the reference does not jump";
-  crane.release();
-  EXPECT_EQ(crane.at[kTrolley].speed, 0);
-}
-
 TEST(Stick, TakesNaNAsRelease) {
   for (const double none :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

@@ -232,6 +232,57 @@ TEST(Jog, AMoveReplacesTheSession) {
   EXPECT_NEAR(jogged.crane().state().trolley_position_m, 0.8, 0.02);
 }
 
+/// A session that begins during a move at full speed.
+class JogDuringAMove : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] static msg::Request move(double trolley_m, double slew_rad) {
+    msg::Request request{};
+    request.kind = crane_REQUEST_MOVE;
+    request.selected[0] = request.selected[1] = true;
+    request.target[0] = trolley_m;
+    request.target[1] = slew_rad;
+    return request;
+  }
+};
+
+TEST_P(JogDuringAMove, FirstBringsTheCraneToRestOnThePathOfTheMove) {
+  const auto rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  Jogged jogged{GetParam()};
+  auto& crane = jogged.crane();
+  double lowest_m = 0;
+  jogged.mischief = [&] { lowest_m = std::min(lowest_m, crane.state().trolley_position_m); };
+  const auto begin_move = [&] {
+    ASSERT_EQ(crane.ask(move(1.25, -0.8)), "");
+    crane.run_until_hold(20);
+    crane.run(5);
+    ASSERT_EQ(crane.ask(move(0.22, 0.85)), "");
+    lowest_m = crane.state().trolley_position_m;
+  };
+  begin_move();
+  crane.run_until_hold(20);
+  const double lowest_of_move_m = lowest_m;  // the law passes the target while it damps the swing
+  int moving_sessions = 0;
+  for (double begin_s = 0.25; begin_s < 3.6; begin_s += 0.35) {
+    SCOPED_TRACE("the session begins " + std::to_string(begin_s) + " s after the move");
+    begin_move();
+    crane.run(begin_s);
+    moving_sessions += std::abs(crane.state().trolley_speed_mps) > 0.2 ? 1 : 0;
+    ASSERT_EQ(jogged.begin({false, true, false}), "");
+    jogged.deflect({0, 0.02, 0}, 6);
+    EXPECT_LT(std::abs(crane.state().trolley_speed_mps), 0.02);
+    EXPECT_LT(std::abs(crane.state().slew_speed_radps), 0.02 * rig.drives[1].reference_speed + 0.03);
+    jogged.release();
+    EXPECT_GT(lowest_m, lowest_of_move_m - rig.drives[0].soft_margin / 2);
+    ASSERT_EQ(crane.status().state, crane_STATE_HOLD) << crane.cause();
+  }
+  EXPECT_GE(moving_sessions, 2) << "sessions of this test must begin at speed";
+}
+
+INSTANTIATE_TEST_SUITE_P(With, JogDuringAMove,
+                         testing::Values("time_optimal", "lqr", "delayed_1_optimised", "shaped_zv",
+                                         "gain_scheduling_partial"),
+                         [](const auto& test) { return std::string{test.param}; });
+
 /// Rigs with other axes than the tower: without a slewing jib, without a hoist, without a load.
 class JogOn : public testing::TestWithParam<const char*> {};
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "jog/operated_crane.hpp"
 
@@ -66,6 +67,32 @@ std::vector<std::string> settling_controllers() {
     if (const std::string name{controller.name}; name != "none" && name != "delayed_2") names.push_back(name);
   return names;
 }
+
+class ReplacedMoves : public testing::TestWithParam<std::string> {};
+
+TEST_P(ReplacedMoves, DoNotStopTheCrane) {
+  constexpr int kSequences = 25;
+  const configuration::Rig rig =
+      configuration::load_rig(std::string(CRANE_RIGS) + "/virginia_tech_tower.toml");
+  for (unsigned seed = 1; seed <= kSequences; ++seed) {
+    std::mt19937 random{seed};
+    const auto between = [&random](double low, double high) {
+      return std::uniform_real_distribution{low, high}(random);
+    };
+    OperatedCrane crane{GetParam(), rig};
+    for (int k = 0; k < 6 && crane.cause() == "NONE"; ++k) {
+      ASSERT_EQ(move_to(crane, {between(0.25, 1.25), between(-2.5, 2.5)}), "");
+      crane.run(between(0.2, 3));
+    }
+    crane.run_until_hold(60);
+    EXPECT_EQ(crane.cause(), "NONE") << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheTower, ReplacedMoves,
+                         testing::Values("time_optimal", "gain_scheduling_partial", "lqr", "shaped_zv",
+                                         "shaped_zvd", "shaped_ei", "delayed_1", "delayed_1_optimised"),
+                         [](const auto& name) { return name.param; });
 
 INSTANTIATE_TEST_SUITE_P(OfTheTower, EveryController, testing::ValuesIn(settling_controllers()),
                          [](const auto& name) { return name.param; });

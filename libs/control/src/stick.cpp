@@ -246,20 +246,14 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
   memory.limits = limits_of_s(limits, reference);
   for (std::size_t i = 0; i < kAxes; ++i) {
     StickAxis& axis = memory.axis[i];
-    const auto& own = memory.limits[i];
     axis.position = reference[i].position;
-    axis.speed = axis.unshaped = own.speed > 0 ? reference[i].speed : 0;
-    axis.acceleration = axis.lag = axis.load_offset = axis.load_offset_rate = 0;
+    axis.speed = axis.unshaped = axis.acceleration = axis.lag = 0;
+    axis.load_offset = axis.load_offset_rate = 0;
     axis.pending = {};
     axis.release = {axis.position, axis.position};
-    if (own.speed > 0)
-      axis.release = release_in(own, i == kHoist ? ShaperImpulses{} : memory.impulses,
-                                {own.acceleration * limits.period_s, limits.period_s}, axis);
   }
   memory.path.fill(point_of(limits, memory));
-  for (std::size_t k = 1; k < memory.path.size(); ++k)  // previous position of the point
-    for (std::size_t i = 0; i < kAxes; ++i)
-      memory.path[k].position[i] -= static_cast<double>(k) * memory.axis[i].speed * limits.period_s;
+  memory.rest_ticks = 0;
 }
 
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,

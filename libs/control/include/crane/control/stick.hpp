@@ -120,8 +120,9 @@ struct StickMemory {
 /// @return all problems as "name = value: rule"; empty when the stick can be used
 [[nodiscard]] std::vector<std::string> problems(const StickLimits& limits);
 
-/// Begins at the position and the speed of `reference`. An axis outside its limits may only move inwards.
-/// @pre problems(limits).empty()
+/// Begins at rest at the position of `reference`. An axis outside its limits may only move inwards.
+/// @pre problems(limits).empty(); the reference rests: a session that began at speed could neither stay
+/// inside the limits nor know the swing of the load
 void begin(const StickLimits& limits, const Reference& reference, StickMemory& memory) noexcept;
 
 /// Advances the reference by one tick; allocates no memory.
