@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "crane/bridge/last_line.hpp"
+#include "crane/configuration/encoder_resolution.hpp"
 
 namespace crane::bridge {
 namespace {
@@ -112,9 +113,8 @@ bool position_fails(const LastLineParameters& parameters, const CheckInput& inpu
 }
 
 bool overspeed(const LastLineParameters& parameters, const CheckInput& input) noexcept {
-  constexpr double kSupervisorMargin = 1.1;
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
-    return !(std::abs(speed(parameters, input, i)) <= kSupervisorMargin * axis.max_speed);
+    return !(std::abs(speed(parameters, input, i)) <= configuration::kBridgeSpeedMargin * axis.max_speed);
   });
 }
 
@@ -198,14 +198,34 @@ std::size_t ticks_without_motion(const History& history, std::size_t i) {
   return ticks;
 }
 
-/// True when an axis with known position must have moved by more than kVisible while its counter
-/// changed by at most kFlicker_counts. The distance is a lower bound: from rest, smallest gain, 1.5 times the
-/// friction, largest force of the load.
+/// Largest speed against the present voltage at the beginning of the ticks without motion, unit/s, <= 0. The
+/// counter hides a reversal: the axis returns to where it came from. A speed that has grown linearly from
+/// rest is twice its mean.
+double reversed_speed(const LastLineParameters& parameters, const AxisCheckParameters& axis,
+                      const CheckInput& input, std::size_t i, std::size_t ticks) {
+  constexpr double kMean_s = 0.05, kFinalPerMean = 2;
+  const auto& history = *input.history;
+  const auto span = static_cast<std::size_t>(std::max(std::llround(kMean_s / parameters.period_s), 1LL));
+  const std::size_t oldest = std::min(ticks + span, history.size() - 1);
+  if (oldest <= ticks) return 0;
+  const double side = history[0].observation.applied_v[i] > 0 ? 1 : -1;
+  const double moved =
+      side * (history[ticks].observation.coordinate[i] - history[oldest].observation.coordinate[i]);
+  if (!(moved < 0)) return 0;
+  return (kFinalPerMean * moved - axis.unit_per_count) / seconds(parameters, input, ticks, oldest);
+}
+
+/// True when an axis with known position must have moved by a visible distance while its counter changed by
+/// at most kFlicker_counts. The distance is a lower bound: from rest or from reversed_speed(), smallest gain,
+/// 1.5 times the friction, largest force of the load.
 bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckParameters& axis,
-                       const History& history, std::size_t i) {
-  constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
-  double least_distance = 0, least_speed = 0;
-  for (std::size_t age = ticks_without_motion(history, i); age-- > 0;) {
+                       const CheckInput& input, std::size_t i) {
+  constexpr double kLeastVisible = 0.005;  // m, rad, m of cable: twenty times the backlash of a gear
+  const double visible = std::max(kLeastVisible, (kFlicker_counts + 1) * axis.unit_per_count);
+  const auto& history = *input.history;
+  const std::size_t ticks = ticks_without_motion(history, i);
+  double least_distance = 0, least_speed = reversed_speed(parameters, axis, input, i, ticks);
+  for (std::size_t age = ticks; age-- > 0;) {
     const double net_v =
         std::max(std::abs(history[age].observation.applied_v[i]) - axis.certain_motion_v, 0.0);
     if (axis.lag_s > 0)
@@ -214,7 +234,7 @@ bool motion_is_missing(const LastLineParameters& parameters, const AxisCheckPara
       least_speed += axis.gain_low * net_v * parameters.period_s;
     least_distance += least_speed * parameters.period_s;
   }
-  return least_distance > kVisible;
+  return least_distance > visible;
 }
 
 /// The voltage exceeds friction and load, the brake is open, and the counter changes by at most
@@ -225,7 +245,7 @@ bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& inpu
   const auto ticks = std::clamp<std::size_t>(window, 2, History::kLength - 1);
   const auto& history = *input.history;
   return any_axis(parameters, [&](std::size_t i, const AxisCheckParameters& axis) {
-    if (!history[0].observation.unknown[i]) return motion_is_missing(parameters, axis, history, i);
+    if (!history[0].observation.unknown[i]) return motion_is_missing(parameters, axis, input, i);
     if (ticks_without_motion(history, i) < ticks) return false;
     for (std::size_t age = 0; age < ticks; ++age)
       if (std::abs(history[age].observation.applied_v[i]) < axis.certain_homing_motion_v) return false;

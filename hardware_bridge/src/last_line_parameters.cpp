@@ -50,6 +50,7 @@ AxisCheckParameters axis_check_parameters(const configuration::Rig& rig, std::si
   axis.certain_motion_v = kOffset_v + kFrictionMargin * friction_v + load_pull_v(i, rig);
   axis.certain_homing_motion_v = kCertainHoming_v + friction_v;
   axis.response_margin_v = std::max(kResponse_v, load_pull_v(i, rig));
+  axis.unit_per_count = 1 / rig.encoders[i].counts_per_unit;
   set_gains(axis, i, rig);
   return axis;
 }

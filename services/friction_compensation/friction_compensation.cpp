@@ -16,6 +16,9 @@ using runtime::Context;
 /// anti-swing, whose outputs are inputs here.
 constexpr double kWaitShare = 0.5;
 
+/// Largest rate of the compensation / rate limit of the gate. The laws have the other half.
+constexpr double kShareOfRate = 0.5;
+
 bool adapts(const control::Design& design) { return design.adaptation.enabled; }
 
 class FrictionCompensation
@@ -25,6 +28,8 @@ class FrictionCompensation
       : JoinedComponent{context, kWaitShare, topics::state, topics::tracking, topics::anti_swing},
         friction_{context.rig.design.friction},
         output_{context.ports.output(topics::demand)} {
+    for (std::size_t i = 0; i < control::kAxes; ++i)
+      largest_step_v_[i] = kShareOfRate * context.rig.drives[i].volt_rate_limit_vps * context.rig.period_s;
     if (adapts(context.rig.design))
       adaptation_.emplace(control::Adaptation{context.rig.design}, context.ports.output(topics::adaptation));
   }
@@ -38,7 +43,11 @@ class FrictionCompensation
     sample.header = runtime::answer_to(state->header);
     for (std::size_t i = 0; i < control::kAxes; ++i) {
       sample.control_v[i] = tracking->drive_v[i] + anti_swing->drive_v[i];
-      sample.friction_v[i] = control::friction_compensation_v(friction_[i], sample.control_v[i], speed[i]);
+      const double friction_v = control::friction_compensation_v(friction_[i], sample.control_v[i], speed[i]);
+      // With a period of about 1 ms, the jump at a change of direction exceeds the rate limit of the gate,
+      // which would count it as a fault of the controller.
+      sample.friction_v[i] = friction_v_[i] =
+          std::clamp(friction_v, friction_v_[i] - largest_step_v_[i], friction_v_[i] + largest_step_v_[i]);
       sample.total_v[i] = sample.control_v[i] + sample.friction_v[i];
     }
     sample.second_writer = disputed() || tracking->second_writer || anti_swing->second_writer;
@@ -69,6 +78,8 @@ class FrictionCompensation
     runtime::Output<msg::Adaptation> output;
   };
   std::array<control::DriveFriction, control::kAxes> friction_;
+  control::Volts largest_step_v_{};  ///< largest change of the compensation in one tick
+  control::Volts friction_v_{};      ///< compensation of the last tick
   runtime::Output<msg::Demand> output_;
   std::optional<Adapting> adaptation_;  ///< nothing: the rig file adapts no axis
   control::Volts demand_v_{};           ///< of the last tick

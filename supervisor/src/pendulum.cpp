@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "crane/plant/pendulum.hpp"
@@ -12,7 +13,9 @@ namespace {
 using Plane = PendulumMemory::Plane;
 
 constexpr double kLongestGap_s = 0.1;  // a longer time without samples clears the memory
-constexpr double kLeastDepth = 0.2;    // smallest depth of the balance / cable length: avoids a division by 0
+constexpr double kSameTick = 0.5;      // tolerance of the time of a sample / period
+constexpr double kRightAngle_rad = std::numbers::pi / 2;
+constexpr double kLeastDepth = 0.2;  // smallest depth of the balance / cable length: avoids a division by 0
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }
@@ -27,6 +30,18 @@ Plane shortened_along(const Plane& direction, double by, const Plane& a) {
   const Plane unit = (1 / length) * direction;
   const double along = dot(a, unit);
   return a - std::copysign(std::min(std::abs(along), by), along) * unit;
+}
+
+/// Shortest time between two samples of the balance: the quantisation of cable and angles at the swing limit
+/// then changes the measured vertical acceleration, a second difference of the depth, by at most kDepthNoise
+/// g.
+double shortest_span_s(const Limits& limits, double cable_m) {
+  constexpr double kDepthNoise = 0.3;
+  const auto& count = limits.machine.swing_resolution_rad;
+  const double depth_m =
+      limits.machine.resolution[2] +
+      cable_m * std::sin(std::min(limits.swing_limit_rad, kRightAngle_rad)) * std::hypot(count[0], count[1]);
+  return std::sqrt(depth_m / (kDepthNoise * limits.machine.crane.gravity_mps2));
 }
 
 /// Rotates a vector from the frame of the jib to that of the ground; the negative angle rotates it back.
@@ -117,23 +132,32 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
       shortened_along(swing_change, kCableTolerance * norm(swing_change), memory.sum_mps + error);
   const double length = norm(sum);
   memory.sum_mps = length > unknown ? (1 - unknown / length) * sum : Plane{};
-  memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
+  memory.growing_samples = length > unknown ? std::min(memory.growing_samples + 1, kPush_samples + 1) : 0;
 }
 
-/// @return true when an encoder that counted before the push has not counted for kNoCount_ticks
-///   consecutive ticks after the push
+/// Limit of the sum, m/s. @param position  of the axes @param span_s  time between two samples
+double pendulum_limit(const Limits& limits, const PerAxis& position, double span_s) noexcept {
+  const auto& swing = limits.machine.swing_resolution_rad;
+  const auto& axis = limits.machine.resolution;
+  const double load_m = limits.machine.cable(position[2]) * std::hypot(swing[0], swing[1]);
+  const double pivot_m = std::hypot(axis[0], position[0] * axis[1]);
+  return kPermittedSum_mps + 2 * (load_m + pivot_m) / (static_cast<double>(kMeanSamples) * span_s);
+}
+
+/// @return true when an encoder that counted before the push has not counted for kNoCount_samples
+///   consecutive samples after the push
 bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
   bool stopped = false;
   const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};
-  // A filtered angle changes in every tick by a part of a count.
-  const double least_counts = limits.machine.swing_filtered ? 0.5 / kNoCount_ticks : 0.5;
+  // A filtered angle changes in every sample by a part of a count.
+  const double least_counts = limits.machine.swing_filtered ? 0.5 / kNoCount_samples : 0.5;
   for (std::size_t i = 0; i < 2; ++i) {
     const bool no_count =
         std::abs(swing_rad[i] - memory.swing_rad[i]) <= least_counts * limits.machine.swing_resolution_rad[i];
     memory.swing_rad[i] = swing_rad[i];
-    memory.counting_ticks[i] = no_count ? std::max(memory.counting_ticks[i] - 1, 0) : 2 * kPush_ticks;
-    memory.no_count_ticks[i] = no_count && memory.push_left_s > 0 ? memory.no_count_ticks[i] + 1 : 0;
-    stopped = stopped || (memory.counted_before_push[i] && memory.no_count_ticks[i] >= kNoCount_ticks);
+    memory.counting_samples[i] = no_count ? std::max(memory.counting_samples[i] - 1, 0) : 2 * kPush_samples;
+    memory.no_count_samples[i] = no_count && memory.push_left_s > 0 ? memory.no_count_samples[i] + 1 : 0;
+    stopped = stopped || (memory.counted_before_push[i] && memory.no_count_samples[i] >= kNoCount_samples);
   }
   memory.push_left_s -= span_s;
   return stopped;
@@ -145,14 +169,14 @@ bool was_pushed(PendulumMemory& memory) {
   const double length = norm(memory.sum_mps);
   // A push explains the sum only when both have the same direction.
   const double swing_change = dot(memory.swing_change_mps, memory.sum_mps) / length;
-  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks ||
+  if (memory.push_left_s > 0 || memory.growing_samples > kPush_samples ||
       !(swing_change >= kLeastShareOfSum * length))
     return false;
   memory.push_left_s = kPushInterval_s;
-  for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_ticks[i] > 0;
+  for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_samples[i] > 0;
   memory.sum_mps = {};
   memory.balances = {};
-  memory.growing_ticks = 0;
+  memory.growing_samples = 0;
   memory.samples = 0;
   return true;
 }
@@ -163,18 +187,14 @@ double pendulum_drift(const Limits& limits, double span_s) noexcept {
   return (limits.machine.crane.gravity_mps2 * kZeroError_rad + limits.clearance.wind_mps2) * span_s;
 }
 
-double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexcept {
-  const auto& count = limits.machine.swing_resolution_rad;
-  return kPermittedSum_mps +
-         2 * cable_m * std::hypot(count[0], count[1]) / (static_cast<double>(kMeanSamples) * span_s);
-}
-
 bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) noexcept {
   const auto& machine = limits.machine;
   if (!machine.known || !(machine.swing_measured[0] || machine.swing_measured[1])) return false;
-  if (memory.samples > 0 && !(input.sampled_s > memory.recent[0].sampled_s)) return false;
-  if (memory.samples > 0 && input.sampled_s - memory.recent[0].sampled_s > kLongestGap_s)
-    memory = {.largest = memory.largest};
+  const double elapsed_s = memory.samples > 0 ? input.sampled_s - memory.recent[0].sampled_s : kLongestGap_s;
+  const double shortest_s = shortest_span_s(limits, machine.cable(input.position[2]));
+  if (memory.samples > 0 && !(elapsed_s > 0 && elapsed_s >= shortest_s - kSameTick * limits.period_s))
+    return false;
+  if (elapsed_s > kLongestGap_s + shortest_s) memory = {.largest = memory.largest};
   memory.recent[2] = memory.recent[1];
   memory.recent[1] = memory.recent[0];
   const PerAxis position = filtered(limits, input, memory);
@@ -187,7 +207,7 @@ bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, Pendu
   const double cable_m = machine.cable(position[2]);
   const double span_s = (memory.recent[0].sampled_s - memory.recent[2].sampled_s) / 2;
   add(limits, cable_m, position[1], span_s, memory);
-  const double ratio = norm(memory.sum_mps) / pendulum_limit(limits, cable_m, span_s);
+  const double ratio = norm(memory.sum_mps) / pendulum_limit(limits, position, span_s);
   if (follow_counts(limits, input, span_s, memory)) return true;
   if (ratio > 1 && was_pushed(memory)) return false;
   memory.largest = std::max(memory.largest, ratio);

@@ -140,7 +140,7 @@ constexpr std::array kRules{
     Rule{"supervisor_demand_rate", Cause::demand_rate, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_rate; },
          "the gate limits the rate of the demand in too many ticks",
-         "12 ticks in a row; more if `volt_rate_limit_vps` is low", kDemandJumps},
+         "12 ticks in a row; more if not every tick is limited or `volt_rate_limit_vps` is low", kDemandJumps},
     Rule{"supervisor_overrun", Cause::overrun, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.overrun; },
          "ticks of the bridge are late by more than half a period", "3rd tick in a row",

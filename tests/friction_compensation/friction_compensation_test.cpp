@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -63,6 +64,31 @@ TEST_F(FrictionComponent, PassesOnASecondWriterThatAnEarlierProcessDetected) {
 
 TEST_F(FrictionComponent, KeepsVoltsThatAreNotFiniteSoThatTheGateRejectsThem) {
   EXPECT_TRUE(std::isnan(demand(state_at(1), contribution(std::nan(""), 0), contribution(0, 0)).total_v[0]));
+}
+
+TEST(FrictionComponentAtOneKilohertz, ChangesItsDirectionWithinTheRateLimitOfTheGate) {
+  auto rig = runtime::test::tower();
+  rig.period_s = 0.001;
+  const double largest_step_v = rig.drives[control::kTrolley].volt_rate_limit_vps * rig.period_s / 2;
+  ComponentBench bench{friction_compensation_spec(), rig};
+  auto demands = bench.listen(topics::demand);
+  double last_v = 0, largest_v = 0;
+  for (std::uint64_t tick = 1; tick <= 40; ++tick) {
+    auto tracking = contribution(tick / 5 % 2 == 0 ? 0.5 : -0.5, 0);  // changes its sign every 5 ms
+    tracking.header = runtime::test::tick(tick);
+    auto none = contribution(0, 0);
+    none.header = runtime::test::tick(tick);
+    bench.publish(topics::state, crane_SOURCE_PLANT, state_at(tick));
+    bench.publish(topics::tracking, crane_SOURCE_TRACKING, tracking);
+    bench.publish(topics::anti_swing, crane_SOURCE_ANTI_SWING, none);
+    bench.step();
+    const auto sample = demands.take();
+    ASSERT_TRUE(sample);
+    EXPECT_LE(std::abs(sample->friction_v[0] - last_v), largest_step_v * (1 + 1e-12)) << tick;
+    last_v = sample->friction_v[0];
+    largest_v = std::max(largest_v, last_v);
+  }
+  EXPECT_NEAR(largest_v, bench.rig().design.friction[0].stiction_positive_v, 1e-9) << "within 5 ms";
 }
 
 configuration::Rig adapting_tower() {

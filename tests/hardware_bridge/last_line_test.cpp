@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "crane/configuration/encoder_resolution.hpp"
 #include "last_line_timeline.hpp"
 
 namespace crane::bridge::test {
@@ -142,6 +143,37 @@ TEST(LastLine, DoesNotMistakeASkippedTickForAJumpOrForSpeed) {
   timeline.now += 3;
   timeline.trolley_m += 3 * timeline.speed_mps * kPeriod_s;
   EXPECT_TRUE(timeline.tick()) << name_of(timeline.line.reason());
+}
+
+/// The tower with an encoder of the trolley that is as coarse as the rig reader permits.
+configuration::Rig tower_with_coarse_encoder() {
+  auto rig = tower();
+  rig.encoders[0].counts_per_unit = configuration::least_counts_per_unit(rig.drives[0], rig.period_s);
+  return rig;
+}
+
+TEST(LastLine, DoesNotMistakeACoarseEncoderForADeadOneWhileTheAxisReverses) {
+  for (const double omega_radps : {8.0, 12.0, 20.0})
+    for (const double volts : {3.5, 4.5, 5.5}) {
+      const auto rig = tower_with_coarse_encoder();
+      Timeline timeline{last_line_checks(), rig};
+      timeline.start_at(0.5);
+      for (int k = 0; k < 1000; ++k) {
+        timeline.drive_v[0] = volts * std::cos(omega_radps * k * kPeriod_s);
+        ASSERT_TRUE(timeline.tick()) << name_of(timeline.line.reason()) << " in tick " << k << ", " << volts
+                                     << " V, " << omega_radps << " rad/s";
+      }
+    }
+}
+
+TEST(LastLine, DetectsADeadCoarseEncoder) {
+  const auto rig = tower_with_coarse_encoder();
+  Timeline timeline{last_line_checks(), rig};
+  timeline.tick(5);
+  timeline.encoder_dead = true;
+  timeline.drive_v[0] = 6;
+  EXPECT_LE(timeline.ticks_until_stopped(), 11);
+  EXPECT_EQ(timeline.line.reason(), Reason::encoder_frozen);
 }
 
 TEST(LastLine, TheForceOfALoadAsHeavyAsTheTrolleyIsNoFaultOfItsDrive) {

@@ -87,8 +87,9 @@ class Timeline {
     Observation observation;
     observation.time_ns = std::llround((static_cast<double>(now) * kPeriod_s + late_s) * 1e9);
     if (!encoder_dead) shown_m_ = trolley_m + encoder_offset_m;
-    observation.coordinate = {shown_m_, 0, 1, swing_rad, 0};
-    observation.counts[0] = std::llround(shown_m_ * rig_.encoders[0].counts_per_unit);
+    const double counts_per_m = rig_.encoders[0].counts_per_unit;
+    observation.counts[0] = std::llround(shown_m_ * counts_per_m);
+    observation.coordinate = {static_cast<double>(observation.counts[0]) / counts_per_m, 0, 1, swing_rad, 0};
     observation.applied_v = outputs.drive_v;
     const bool open = brake_opens && outputs.brake_release[0];
     observation.brake_closed = {!open, !open, !open};

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/configuration/rig.hpp"
 #include "crane/supervisor/component.hpp"
 #include "crane/supervisor/following.hpp"
@@ -139,13 +140,15 @@ class Load : public testing::Test {
     for (int tick = 1; tick <= ticks; ++tick) {
       for (int step = 0; step < kSteps; ++step) {
         const double pivot_mps2 = -trolley_m_ * kTrolley_radps * kTrolley_radps *
-                                  std::sin(kTrolley_radps * (time_s_ + step * kTick_s / kSteps));
+                                  std::sin(kTrolley_radps * (time_s_ + step * tick_s_ / kSteps));
         rate_ += ((wind_mps2_ + pivot_mps2 * std::cos(angle_)) / cable_m_ - omega2 * std::sin(angle_)) *
-                 kTick_s / kSteps;
-        angle_ += rate_ * kTick_s / kSteps;
+                 tick_s_ / kSteps;
+        angle_ += rate_ * tick_s_ / kSteps;
       }
-      time_s_ += kTick_s;
-      const double position_m = 0.5 + trolley_m_ * std::sin(kTrolley_radps * time_s_);
+      time_s_ += tick_s_;
+      const double step_m = limits_.machine.resolution[0];
+      const double trolley_m = 0.5 + trolley_m_ * std::sin(kTrolley_radps * time_s_);
+      const double position_m = std::round(trolley_m / step_m) * step_m;
       const double count = limits_.machine.swing_resolution_rad[0];
       double shown = std::round(show(angle_) / count) * count;
       if (limits_.machine.swing_filtered) shown = control::step(limits_.machine.swing_filter, filter_, shown);
@@ -173,11 +176,24 @@ class Load : public testing::Test {
   Limits limits_ = limits_of_rig("virginia_tech_tower");
   PendulumMemory memory_;
   control::FilterMemory filter_;
+  double tick_s_ = kTick_s;
   int lost_ticks_ = 0;  ///< ticks without a sample, of every 25
   double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1, wind_mps2_ = 0, trolley_m_ = 0;
 };
 
 TEST_F(Load, ThatSwingsIsNotAFailure) { EXPECT_EQ(swing(6000, as_it_is), 0); }
+
+TEST_F(Load, ThatSwingsWidelyIsNotAFailureAtAnyRateOrCableLength) {
+  for (const double tick_s : {0.001, 0.01, 0.02})
+    for (const double cable_m : {0.4, 1.5, 80.0}) {
+      SCOPED_TRACE(std::to_string(tick_s) + " s, " + std::to_string(cable_m) + " m");
+      limits_.period_s = tick_s_ = tick_s;
+      cable_m_ = measured_m_ = cable_m;
+      memory_ = {};
+      angle_ = 0.69, rate_ = 0;
+      EXPECT_EQ(swing(static_cast<int>(30 / tick_s), as_it_is), 0) << memory_.largest;
+    }
+}
 
 TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongCausesNoFailure) {
   for (const double ratio : {0.5, 1.5}) {
@@ -227,6 +243,17 @@ TEST_F(Load, UnderAMovingTrolleyCausesNoFailureWithOrWithoutFilteredAngles) {
   EXPECT_EQ(swing(3000, as_it_is), 0);
   filter_angle(0.1);
   EXPECT_EQ(swing(3000, as_it_is), 0);
+}
+
+TEST_F(Load, OnATrolleyWithTheCoarsestPermittedEncoderCausesNoFailure) {
+  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  limits_.machine.resolution[0] = 1 / configuration::least_counts_per_unit(rig.drives[0], rig.period_s);
+  trolley_m_ = 0.1;
+  for (const double angle_rad : {0.0, 0.1, 0.2}) {
+    memory_ = {};
+    angle_ = angle_rad, rate_ = 0;
+    EXPECT_EQ(swing(3000, as_it_is), 0) << angle_rad;
+  }
 }
 
 /// The bridge filters interpolated positions for the ticks that it skips.

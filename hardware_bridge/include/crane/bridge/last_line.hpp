@@ -77,6 +77,7 @@ struct AxisCheckParameters : control::DriveLimits {
   double gain_low = 0;
   double gain_high = 0;
   double lag_s = 0;  ///< time constant of a speed-controlled drive; 0: the voltage controls the acceleration
+  double unit_per_count = 0;  ///< resolution of the encoder
 };
 
 struct LastLineParameters {
