@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "crane/configuration/path_space.hpp"
 #include "crane/control/controlled_stop.hpp"
 #include "crane/control/reference_start.hpp"
 #include "crane/runtime/convert.hpp"
 #include "trajectory_planner/accepted_move.hpp"
 #include "trajectory_planner/motion.hpp"
 #include "trajectory_planner/plan_worker.hpp"
+#include "trajectory_planner/zone_paths.hpp"
 
 namespace crane::services {
 namespace {
@@ -39,10 +39,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
         period_s_{context.rig.period_s},
         uses_step_reference_{context.controller.reference == control::ReferenceShape::step},
         rig_{context.rig},
-        path_space_{configuration::path_space_of(context.rig)},
+        paths_{context.rig},
         motion_{context.rig, context.controller.reference} {
-    for (std::size_t i = 0; i < control::kAxes; ++i)
-      if (context.rig.drives[i].present) max_speed_[i] = context.rig.drives[i].max_speed;
     if (context.controller.reference == control::ReferenceShape::time_optimal)
       worker_.emplace(context.rig.design, context.clock == runtime::Clock::realtime);
   }
@@ -149,7 +147,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
 
   void begin_waiting(const control::Measurement& measured, std::uint64_t tick) {
     if (!waiting_ || !motion_.reference_rests(tick)) return;
-    const bool around_zones = waiting_->move.kind == crane_REQUEST_MOVE && !path_space_.zones.empty();
+    const bool around_zones = waiting_->move.kind == crane_REQUEST_MOVE && paths_.needed();
     // The supervisor has searched a path from the measured position. The accepted path of the previous move
     // connects this position with the resting point; therefore a path from the resting point exists.
     if (around_zones && !motion_.rests(measured, tick) && tick < waiting_->last_tick) return;
@@ -166,11 +164,13 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       start_straight(target_of(move), tick);
   }
 
-  /// Starts a move on the straight path. In maintenance mode, a shaped profile replaces the time-optimal
-  /// plan, which would use the full speed of the drives.
+  /// In maintenance mode, a shaped profile replaces the time-optimal plan, which would use the full speed of
+  /// the drives.
+  [[nodiscard]] bool uses_plans() const { return worker_ && mode_ != crane_MODE_MAINTENANCE; }
+
+  /// Starts a move on the straight path.
   void start_straight(const MoveTarget& move, std::uint64_t tick) {
-    if (const auto problem =
-            worker_ && mode_ != crane_MODE_MAINTENANCE ? motion_.plan_for(move, tick) : std::nullopt)
+    if (const auto problem = uses_plans() ? motion_.plan_for(move, tick) : std::nullopt)
       pending_ = MoveAwaitingPlan{move, *problem, tick + planning_ticks_, worker_->ask(*problem)};
     else
       motion_.start(move, tick);
@@ -184,31 +184,18 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       from[i] = now[i].position;
       target[i] = move.selected[i] ? move.target[i] : from[i];
     }
-    auto path = control::path_to(path_space_, from, target);
-    if (path.outcome == control::PathOutcome::straight && uses_step_reference_ &&
-        !is_free_for_step(from, target))
-      path = {.outcome = control::PathOutcome::by_waypoints, .points = {{.position = target}}};
+    const auto path = paths_.path(
+        from, target, uses_step_reference_ || uses_plans() ? StraightSpeed::full : StraightSpeed::reference);
     const bool has_path =
         path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::by_waypoints;
     if (has_path) move_number_ = accepted.number, move_kind_ = accepted.kind;
     if (path.outcome == control::PathOutcome::straight)
       start_straight(move, tick);
     else if (path.outcome == control::PathOutcome::by_waypoints)
-      motion_.start(path, path_space_, tick);
+      motion_.start(path, paths_.space(), tick);
     else
       node().error("no_path", "no path leads from the place where the crane rests to the target",
                    "move the load away from the zones, then to the target");
-  }
-
-  /// True when the straight path is free at max_speed, which a law for step references may reach.
-  [[nodiscard]] bool is_free_for_step(const plant::PerAxis& from, const plant::PerAxis& to) const {
-    const auto begin = control::completed(path_space_, from), end = control::completed(path_space_, to);
-    const double clearance_m = control::straight_clearance_m(path_space_, begin, end);
-    const double radius_m = std::max(std::abs(begin[control::kTrolley]), std::abs(end[control::kTrolley]));
-    const double fastest_mps =
-        std::hypot(max_speed_[control::kTrolley], radius_m * max_speed_[control::kSlew]);
-    const double cable_m = std::max(begin[control::kHoist], end[control::kHoist]);
-    return control::passing_speed_mps(path_space_, clearance_m, cable_m) >= fastest_mps;
   }
 
   void drop_waiting_moves() {
@@ -270,10 +257,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   };
   std::optional<MoveAwaitingRest> waiting_;
   double period_s_;
-  bool uses_step_reference_;    ///< true: the controller uses step references
-  plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
+  bool uses_step_reference_;  ///< true: the controller uses step references
   const configuration::Rig& rig_;
-  control::PathSpace path_space_;
+  ZonePaths paths_;
   Motion motion_;
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;

@@ -164,6 +164,18 @@ TEST_P(EveryControllerAroundZones, ArrivesAtRandomTargetsAmongRandomZonesWithout
   EXPECT_GT(accepted, seeds);
 }
 
+/// The plan would be faster than the zone filter permits so close to the silo.
+TEST(MovesAroundZones, OnAStraightPathAreNoFasterThanTheirClearancePermits) {
+  auto rig = silo_rig();
+  rig.start.position = {0.9, 2.74, 1.5};
+  Carrier carrier{"time_optimal", rig};
+  ASSERT_EQ(carrier.move(0.19, {}), "");
+  carrier.arrive();
+  EXPECT_EQ(carrier.crane.cause(), "NONE");
+  EXPECT_NEAR(carrier.position()[0], 0.19, arrival_tolerance("time_optimal"));
+  EXPECT_GT(carrier.closest_m, 0);
+}
+
 TEST(MovesAroundZones, AreRefusedWithTheZoneThatContainsTheTarget) {
   Carrier carrier{"lqr"};
   EXPECT_THAT(carrier.move(0.7, 1.0), HasSubstr("the target is inside zone silo"));
