@@ -1,5 +1,5 @@
 #pragma once
-/// Thresholds that decide a verdict. report.json prints them; docs/diagnosis.md lists them.
+/// Thresholds that decide a verdict. report.json prints them; docs/diagnosis_thresholds.md lists them.
 #include <array>
 #include <cstddef>
 

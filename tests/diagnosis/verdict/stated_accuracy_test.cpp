@@ -31,13 +31,16 @@ struct Scales {
 };
 
 /// @param delay_s delay of the command between controller and motor
+/// @param amplitude of the command, times that of the file
 std::vector<Run> runs_of_gantry(const strange::Gantry& gantry, double delay_s, double begin_s,
-                                const Scales& scales = {}) {
-  const auto delayed = [&](double t) { return file_command(begin_s, std::max(0.0, t - delay_s)); };
+                                const Scales& scales = {}, double amplitude = 1) {
+  const auto delayed = [&](double t) {
+    return amplitude * file_command(begin_s, std::max(0.0, t - delay_s));
+  };
   auto table = strange::recorded(strange::moved(gantry, 24, delayed),
                                  {.row_s = kFileRow_s, .position_step_m = 1e-6, .swing_step_rad = 1e-5});
   for (std::size_t row = 0; row < table.columns[0].values.size(); ++row)
-    table.columns[1].values[row] = file_command(begin_s, table.columns[0].values[row]);
+    table.columns[1].values[row] = amplitude * file_command(begin_s, table.columns[0].values[row]);
   for (double& position : table.columns[2].values) position *= scales.position;
   for (double& swing : table.columns[3].values) swing *= scales.swing;
   return load_run(table, accurate_lab(), "gantry.csv").runs;
@@ -176,6 +179,28 @@ TEST(StatedAccuracy, ContainsAQuickForceOnlyIfItIsSmallAsAForce) {
   };
   EXPECT_FALSE(contains(kLarge_v));
   EXPECT_TRUE(contains(kSmall_v));
+}
+
+TEST(StatedAccuracy, DoesNotContainALimitOfTheAmplifierThatOnlyTheHeldOutRunReaches) {
+  const configuration::Rig rig = accurate_lab();
+  Runs train, test;
+  for (diagnosis::Run& run : runs_of_gantry({}, 0, 0)) train.push_back(prepare(std::move(run), rig));
+  for (diagnosis::Run& run : runs_of_gantry({}, 0, 40, {}, 2)) test.push_back(prepare(std::move(run), rig));
+  double largest_v = 0;
+  for (int row = 0; row < 2400; ++row)
+    largest_v = std::max(largest_v, std::abs(file_command(0, row * kFileRow_s)));
+  const Study study(rig, train, test, {}, kUsualAccuracy);
+  const auto limit =
+      std::ranges::find(study.candidates(), std::string{"command_saturation"}, &Candidate::cause);
+  ASSERT_NE(limit, study.candidates().end());
+  const auto contains = [&](double limit_v) -> bool {
+    Fitted fitted;
+    fitted.effects = {{&*limit, {limit_v}}};
+    fitted.interval_std_dev = {0};
+    return StatedAccuracy(rig, kUsualAccuracy).contains_each(study, fitted).front();
+  };
+  EXPECT_FALSE(contains(1.01 * largest_v));
+  EXPECT_TRUE(contains(3 * largest_v));
 }
 
 /// A mean over a window delays by half the window: the accuracy of times is half a control period.

@@ -12,7 +12,7 @@ namespace crane::diagnosis {
 /// @param seed of the sign flips
 /// @param volt_acceleration  acceleration of a drive per volt of its command, m/s^2/V or rad/s^2/V. A run is
 ///   omitted from a line that its command contains if the force is small beside the command
-///   (docs/diagnosis.md, 9). 0: no run is omitted
+///   (docs/diagnosis_method.md, 9). 0: no run is omitted
 [[nodiscard]] std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed,
                                                          double volt_acceleration = 0);
 

@@ -15,7 +15,7 @@ struct ShortForce {
   double share_of_weight = 0;         ///< peak, with its sign
 };
 
-/// The most significant pulse, by the test of a short force (docs/diagnosis.md, 9).
+/// The most significant pulse, by the test of a short force (docs/diagnosis_method.md, 9).
 /// @param problem of the load, whitened, with windows of several periods
 /// @param output index into its outputs @param permitted share of the motion: accuracy of the rig file
 [[nodiscard]] std::optional<ShortForce> find_short_force(const Problem& problem, const Fits& fits,

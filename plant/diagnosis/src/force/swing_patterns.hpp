@@ -1,6 +1,6 @@
 #pragma once
 /// Errors of a swing that are not random: functions of the motion, or of one frequency. The noise model
-/// (docs/diagnosis.md, 4) absorbs also a force that follows from the motion.
+/// (docs/diagnosis_method.md, 4) absorbs also a force that follows from the motion.
 #include <cstdint>
 #include <optional>
 #include <string>

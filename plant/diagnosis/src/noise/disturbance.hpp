@@ -1,5 +1,5 @@
 #pragma once
-/// Noise model of the error x of one output in a window (docs/diagnosis.md, 4):
+/// Noise model of the error x of one output in a window (docs/diagnosis_method.md, 4):
 ///   x'' = -w^2 x - c x' + a + u,   a' = -a / correlation_s + white,   residual: x + noise
 /// a: coloured acceleration. u: white acceleration at low speed, where the time of stick and slip cannot be
 /// predicted. w = 0 for a drive, c = 0 for a pendulum. An axis that sticks loses the error of its speed at

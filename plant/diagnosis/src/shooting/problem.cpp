@@ -125,7 +125,7 @@ std::vector<double> Problem::squares_left(const Fits& fits, std::size_t output) 
   return squares;
 }
 
-std::vector<double> Problem::squares_changed(const Replays& crane, const Fits& at) const {
+std::vector<std::vector<double>> Problem::squares_changed(const Replays& crane, const Fits& at) const {
   std::vector<std::vector<double>> of_windows(windows_.size());
   parallel_for(windows_.size(), [&](std::size_t w) {
     const Window& window = windows_[w];
@@ -135,10 +135,7 @@ std::vector<double> Problem::squares_changed(const Replays& crane, const Fits& a
     for (std::size_t i = 0; i < outputs_.size(); ++i)
       of_windows[w].push_back(change.segment(static_cast<Index>(i) * rows, rows).squaredNorm());
   });
-  std::vector<double> squares(outputs_.size(), 0.0);
-  for (const std::vector<double>& of_window : of_windows)
-    for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += of_window[i];
-  return squares;
+  return of_windows;
 }
 
 VectorXd Problem::simulate(const Replay& replay, const Window& window, const VectorXd& start) const {

@@ -1,6 +1,6 @@
 #pragma once
 /// Multiple shooting over one part (drive or load) of all runs (H. G. Bock 1983): windows of a few seconds.
-/// The start of each window is estimated and marginalised (docs/diagnosis.md, 3 to 5) with the prior standard
+/// The start of each window is estimated and marginalised (docs/diagnosis_method.md, 3 to 5) with the prior standard
 /// deviations S.
 #include <Eigen/Dense>
 #include <limits>
@@ -99,9 +99,9 @@ class Problem {
   [[nodiscard]] std::size_t measured_rows(const Window& window) const;
   /// Sum of squares of measured - simulated [m2 or rad2] by window, of one output.
   [[nodiscard]] std::vector<double> squares_left(const Fits& fits, std::size_t output) const;
-  /// Sum of squares of the change of the simulation from `at` to another crane with the same starts [m2 or
-  /// rad2], by output.
-  [[nodiscard]] std::vector<double> squares_changed(const Replays& crane, const Fits& at) const;
+  /// Sums of squares of the change of the simulation from `at` to another crane with the same starts [m2 or
+  /// rad2], by window and output.
+  [[nodiscard]] std::vector<std::vector<double>> squares_changed(const Replays& crane, const Fits& at) const;
 
  private:
   void set_disturbances(std::vector<Disturbance> disturbances);

@@ -11,7 +11,7 @@
 
 namespace crane::diagnosis {
 
-/// A candidate of a hypothesis, with its values. docs/diagnosis.md calls an accepted one a cause.
+/// A candidate of a hypothesis, with its values. docs/diagnosis_method.md calls an accepted one a cause.
 struct Effect {
   const Candidate* candidate = nullptr;
   std::vector<double> values;

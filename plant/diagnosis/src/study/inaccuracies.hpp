@@ -1,6 +1,6 @@
 #pragma once
 /// Quantities of the rig file that are known to a stated accuracy only. They are free within this accuracy in
-/// every hypothesis, as nuisance parameters (docs/diagnosis.md, 5): an error of a few percent is not a
+/// every hypothesis, as nuisance parameters (docs/diagnosis_method.md, 5): an error of a few percent is not a
 /// cause and does not hide one.
 #include <string>
 #include <vector>

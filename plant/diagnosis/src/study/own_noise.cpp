@@ -48,12 +48,14 @@ std::array<double, kOutputs> change_by(const Study& study, const Fitted& fitted,
   for (const auto& [problem, fits] :
        {std::pair{&body.drive, &fitted.train.drive}, {&body.load, &fitted.train.load}}) {
     if (fits->empty()) continue;
-    const std::vector<double> squares = problem->squares_changed(without, *fits);
-    for (std::size_t i = 0; i < squares.size(); ++i) {
-      double rows = 0;
-      for (const Window& window : problem->windows())
-        rows += static_cast<double>(problem->measured_rows(window, i));
-      change[problem->outputs()[i]] = std::sqrt(squares[i] / rows);
+    const std::vector<std::vector<double>> squares = problem->squares_changed(without, *fits);
+    for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
+      double of_output = 0, rows = 0;
+      for (std::size_t w = 0; w < squares.size(); ++w) {
+        of_output += squares[w][i];
+        rows += static_cast<double>(problem->measured_rows(problem->windows()[w], i));
+      }
+      change[problem->outputs()[i]] = std::sqrt(of_output / rows);
     }
   }
   return change;

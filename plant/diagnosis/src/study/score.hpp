@@ -1,5 +1,5 @@
 #pragma once
-/// Score tests of the candidates beside a hypothesis (C. R. Rao 1948; docs/diagnosis.md, 6).
+/// Score tests of the candidates beside a hypothesis (C. R. Rao 1948; docs/diagnosis_method.md, 6).
 #include <cstddef>
 #include <cstdint>
 #include <vector>

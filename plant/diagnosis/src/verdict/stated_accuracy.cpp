@@ -40,20 +40,53 @@ bool is_error_of_zero(const Study& study, const Effect& effect) {
 }
 
 /// Sums of squares of the differences between the accelerations of two cranes along the measured motion, by
-/// axis [m2/s4 or rad2/s4]. Rows in which the axis rests are left out: static friction takes any value there.
-std::array<double, 2> acceleration_squares(const Runs& runs, const Replays& a, const Replays& b) {
-  std::array<double, 2> squares{};
+/// run and axis [m2/s4 or rad2/s4]. Rows in which the axis rests are left out: static friction takes any
+/// value there.
+std::vector<double> acceleration_squares(const Runs& runs, const Replays& a, const Replays& b) {
+  std::vector<double> squares;
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (const Output axis : simulated_outputs(runs[r], Part::drive)) {
       const std::vector<double>& rate = runs[r].motion[axis].rate;
       const std::vector<double>&of_a = a[r].increments_along_measurement(axis).speed_change,
             &of_b = b[r].increments_along_measurement(axis).speed_change;
+      double sum = 0;
       for (std::size_t row = 0; row < rate.size(); ++row)
         if (std::abs(rate[row]) >= kStandstillSpeed)
-          squares[axis] += std::pow((of_a[row] - of_b[row]) / runs[r].run.period_s, 2);
+          sum += std::pow((of_a[row] - of_b[row]) / runs[r].run.period_s, 2);
+      squares.push_back(sum);
     }
   return squares;
 }
+
+/// Simulation of a crane to which others are compared.
+class Reference {
+ public:
+  Reference(const Problem& part, Part which, const Crane& crane)
+      : part_(part), which_(which), replays_(replays_of(part.runs(), crane)), fits_(part.fit(replays_)) {}
+
+  /// Sums of squares of the differences from another crane: by run and output [m2 or rad2], then of the
+  /// accelerations of the drives.
+  [[nodiscard]] std::vector<double> squares_to(const Crane& crane) const {
+    const Replays changed = replays_of(part_.runs(), crane);
+    const std::size_t outputs = part_.outputs().size();
+    std::vector<double> squares(part_.runs().size() * outputs, 0.0);
+    const auto of_windows = part_.squares_changed(changed, fits_);
+    for (std::size_t w = 0; w < of_windows.size(); ++w)
+      for (std::size_t i = 0; i < outputs; ++i)
+        squares[part_.windows()[w].run * outputs + i] += of_windows[w][i];
+    if (which_ == Part::drive) {
+      const std::vector<double> of_accelerations = acceleration_squares(part_.runs(), changed, replays_);
+      squares.insert(squares.end(), of_accelerations.begin(), of_accelerations.end());
+    }
+    return squares;
+  }
+
+ private:
+  const Problem& part_;
+  Part which_;
+  Replays replays_;
+  Fits fits_;
+};
 
 }  // namespace
 
@@ -97,56 +130,41 @@ std::vector<Crane> StatedAccuracy::inaccurate_cranes(const Study& study, const C
   return cranes;
 }
 
-std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted& fitted) const {
+std::vector<bool> StatedAccuracy::changes_little(const Study& study, const Fitted& fitted) const {
   const Effects& effects = fitted.effects;
-  if (effects.empty()) return {};
   const auto crane_with = [&](const Effects& some) {
     return study.crane(fitted.nuisance.inaccuracies, some);
   };
   const Crane rig_file = crane_with({}), extended = crane_with(effects);
   const std::vector<Crane> inaccurate = inaccurate_cranes(study, rig_file);
-  std::vector<Crane> without_each;
-  for (std::size_t i = 0; i < effects.size(); ++i) without_each.push_back(crane_with(without(effects, i)));
-  Changes largest{};
-  std::vector<Changes> by_effect(effects.size(), Changes{});
-  for (const Problem* part : {&study.train().drive, &study.train().load, &study.whole_runs()}) {
+  std::vector<bool> little(effects.size(), true);
+  for (const auto& [part, which] : {std::pair{&study.train().drive, Part::drive},
+                                    {&study.train().load, Part::load},
+                                    {&study.test().drive, Part::drive},
+                                    {&study.test().load, Part::load},
+                                    {&study.whole_runs(), Part::load}}) {
     if (part->empty()) continue;
-    const std::size_t first = part == &study.whole_runs() ? kOutputs : 0;
-    const auto changes = [&](const Replays& crane, const Fits& at) {
-      Changes squares{};
-      const std::vector<double> of_outputs = part->squares_changed(crane, at);
-      for (std::size_t i = 0; i < of_outputs.size(); ++i) squares[first + part->outputs()[i]] = of_outputs[i];
-      return squares;
-    };
-    const auto add_accelerations = [&](const Replays& changed, const Replays& unchanged, Changes& squares) {
-      if (part != &study.train().drive) return;
-      const auto of_axes = acceleration_squares(part->runs(), changed, unchanged);
-      std::ranges::copy(of_axes, squares.begin() + 2 * kOutputs);
-    };
-    const Replays replays_of_rig_file = replays_of(part->runs(), rig_file);
-    const Fits of_rig_file = part->fit(replays_of_rig_file);
-    for (const Crane& crane : inaccurate) {
-      const Replays replays = replays_of(part->runs(), crane);
-      Changes by_inaccuracy = changes(replays, of_rig_file);
-      add_accelerations(replays, replays_of_rig_file, by_inaccuracy);
-      for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], by_inaccuracy[i]);
-    }
-    const Replays replays_of_extended = replays_of(part->runs(), extended);
-    const Fits of_extended = part->fit(replays_of_extended);
-    for (std::size_t i = 0; i < effects.size(); ++i) {
-      const Replays replays = replays_of(part->runs(), without_each[i]);
-      Changes of_part = changes(replays, of_extended);
-      add_accelerations(replays, replays_of_extended, of_part);
-      for (std::size_t k = 0; k < of_part.size(); ++k) by_effect[i][k] += of_part[k];
-    }
+    const Reference of_rig_file(*part, which, rig_file), of_extended(*part, which, extended);
+    std::vector<double> largest = of_rig_file.squares_to(rig_file);
+    for (const Crane& crane : inaccurate)
+      std::ranges::transform(largest, of_rig_file.squares_to(crane), largest.begin(),
+                             [](double a, double b) { return std::max(a, b); });
+    for (std::size_t i = 0; i < effects.size(); ++i)
+      little[i] = little[i] && std::ranges::equal(of_extended.squares_to(crane_with(without(effects, i))),
+                                                  largest, std::less_equal{});
   }
-  std::vector<bool> contained;
+  return little;
+}
+
+std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Fitted& fitted) const {
+  const Effects& effects = fitted.effects;
+  if (effects.empty()) return {};
+  std::vector<bool> contained = changes_little(study, fitted);
   std::span<const double> std_dev = fitted.interval_std_dev;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    contained.push_back(limits_of(*effects[i].candidate).empty()
-                            ? is_error_of_zero(study, effects[i]) ||
-                                  std::ranges::equal(by_effect[i], largest, std::less_equal{})
-                            : contains_values(effects[i], std_dev, deviations_beyond(study)));
+    contained[i] = is_stated(*effects[i].candidate)
+                       ? contains_values(effects[i], std_dev, deviations_beyond(study))
+                       : contained[i] || is_error_of_zero(study, effects[i]);
     std_dev = std_dev.subspan(effects[i].values.size());
   }
   return contained;

@@ -27,9 +27,9 @@ class StatedAccuracy {
   ///   position or the swing scale changes the simulation of the rig file;
   /// - the effect is a swing offset of at most half a resolution of the sensor.
   ///
-  /// A change is an rms over the windows of the training data; for a swing also over whole runs, from the
-  /// same starts; for a drive also the rms of its acceleration along the measured motion, because the
-  /// position hides a force that alternates quickly.
+  /// A change is an rms over the windows of one run, in each run of training and test; for a swing also over
+  /// whole training runs, from the same starts; for a drive also the rms of its acceleration along the
+  /// measured motion, because the position hides a force that alternates quickly.
   /// @param fitted with interval_std_dev
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
@@ -45,10 +45,6 @@ class StatedAccuracy {
   [[nodiscard]] bool is_stated(const Candidate& candidate) const { return !limits_of(candidate).empty(); }
 
  private:
-  /// Sums of squares by output: in windows [m2 or rad2], then over whole runs (swing only), then of the
-  /// accelerations of the drives along the measured motion [m2/s4 or rad2/s4].
-  using Changes = std::array<double, 2 * kOutputs + 2>;
-
   /// Stated accuracy of the leading parameters; empty if its quantity has none.
   [[nodiscard]] std::vector<double> limits_of(const Candidate& candidate) const;
   /// Number of standard deviations at which one of the candidates with a stated accuracy is beyond its
@@ -59,6 +55,8 @@ class StatedAccuracy {
   /// @param std_dev of its values @param deviations from deviations_beyond()
   [[nodiscard]] bool contains_values(const Effect& effect, std::span<const double> std_dev,
                                      double deviations) const;
+  /// By effect: whether it changes no run more than a stated inaccuracy changes it.
+  [[nodiscard]] std::vector<bool> changes_little(const Study& study, const Fitted& fitted) const;
   /// Cranes whose rig file is wrong by one stated inaccuracy each.
   [[nodiscard]] std::vector<Crane> inaccurate_cranes(const Study& study, const Crane& crane) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Replay: simulation with prescribed motion (docs/diagnosis.md, 1). Independent of services/replay.
+/// Replay: simulation with prescribed motion (docs/diagnosis_method.md, 1). Independent of services/replay.
 ///   whole  command -> positions and swing; nothing is prescribed
 ///   drive  command and measured swing -> positions; a large residual indicates an error of drive or friction
 ///   load   measured motion -> swing; a large residual indicates an error of the load or its sensors
