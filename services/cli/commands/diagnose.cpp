@@ -254,7 +254,7 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       "With --effects 1, a diagnosis takes about 30 s per minute of data on two processors, with more\n"
       "simultaneous causes several times as long.\n"
       "Exit code: 0 for every verdict, 1 when a file cannot be written, 2 for bad arguments, files or data.\n"
-      "docs/diagnosis.md explains method, files and limits.");
+      "docs/diagnosis.md explains files, verdicts and limits; docs/diagnosis_method.md the method.");
   command->callback([options, &chosen] { chosen = [options] { return diagnose(*options); }; });
 }
 

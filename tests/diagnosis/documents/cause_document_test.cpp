@@ -1,5 +1,6 @@
 /// docs/terms.md shows the terms of the model (plant/model), the candidates of the diagnosis and the causes
-/// of the twin. docs/diagnosis.md shows the confounded groups of the score, and the rules of the report.
+/// of the twin. docs/diagnosis.md shows the confounded groups of the score,
+/// docs/diagnosis_thresholds.md the rules of the report.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -96,10 +97,8 @@ std::string rule_name(const std::string& constant) {
 /// The values of the table of thresholds, by the name of the rule. A row lists names, values and units; one
 /// unit may belong to all values. A unit that begins with % is a share.
 std::map<std::string, double> documented_thresholds() {
-  const std::string text = document("diagnosis.md");
-  const std::size_t begin = text.find("### Decision thresholds");
   std::map<std::string, double> values;
-  for (const std::string& line : parts_of(text.substr(begin), "\n")) {
+  for (const std::string& line : parts_of(document("diagnosis_thresholds.md"), "\n")) {
     if (!line.starts_with("| `k")) continue;
     const auto cells = parts_of(line.substr(2), " | ");
     const auto names = parts_of(cells.at(0), ", "), numbers = parts_of(cells.at(1), ", "),
@@ -117,7 +116,7 @@ TEST(DiagnosisDocument, ShowsTheValueOfEachRuleOfTheReport) {
   const auto shown = documented_thresholds();
   for (const Rule& rule : rules::kAll) {
     const auto found = shown.find(rule.name);
-    ASSERT_NE(found, shown.end()) << rule.name << ": add a row to the decision thresholds";
+    ASSERT_NE(found, shown.end()) << rule.name << ": add a row to docs/diagnosis_thresholds.md";
     EXPECT_DOUBLE_EQ(found->second, rule.value) << rule.name;
   }
 }
