@@ -1,7 +1,7 @@
 #pragma once
 /// Multiple shooting over one part (drive or load) of all runs (H. G. Bock 1983): windows of a few seconds.
-/// The start of each window is estimated and marginalised (docs/diagnosis_method.md, 3 to 5) with the prior standard
-/// deviations S.
+/// The start of each window is estimated and marginalised (docs/diagnosis_method.md, 3 to 5) with the prior
+/// standard deviations S.
 #include <Eigen/Dense>
 #include <limits>
 #include <optional>
