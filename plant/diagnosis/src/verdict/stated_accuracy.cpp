@@ -81,6 +81,19 @@ class Reference {
     return squares;
   }
 
+  /// The same for the noise that the resolution of the sensors causes: a smaller difference is not visible. 0
+  /// for accelerations.
+  [[nodiscard]] std::vector<double> squares_of_noise() const {
+    const std::vector<Output>& outputs = part_.outputs();
+    const std::size_t differences = part_.runs().size() * outputs.size();
+    std::vector<double> squares(which_ == Part::drive ? 2 * differences : differences, 0.0);
+    for (const Window& window : part_.windows())
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        squares[window.run * outputs.size() + i] +=
+            static_cast<double>(window.rows) * std::pow(least_noise_of(part_.runs(), outputs[i]), 2);
+    return squares;
+  }
+
  private:
   const Problem& part_;
   Part which_;
@@ -145,7 +158,7 @@ std::vector<bool> StatedAccuracy::changes_little(const Study& study, const Fitte
                                     {&study.whole_runs(), Part::load}}) {
     if (part->empty()) continue;
     const Reference of_rig_file(*part, which, rig_file), of_extended(*part, which, extended);
-    std::vector<double> largest = of_rig_file.squares_to(rig_file);
+    std::vector<double> largest = of_rig_file.squares_of_noise();
     for (const Crane& crane : inaccurate)
       std::ranges::transform(largest, of_rig_file.squares_to(crane), largest.begin(),
                              [](double a, double b) { return std::max(a, b); });

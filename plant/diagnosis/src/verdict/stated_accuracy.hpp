@@ -29,7 +29,8 @@ class StatedAccuracy {
   ///
   /// A change is an rms over the windows of one run, in each run of training and test; for a swing also over
   /// whole training runs, from the same starts; for a drive also the rms of its acceleration along the
-  /// measured motion, because the position hides a force that alternates quickly.
+  /// measured motion, because the position hides a force that alternates quickly. A change that the
+  /// resolution of the sensor hides does not count.
   /// @param fitted with interval_std_dev
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Fitted& fitted) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
