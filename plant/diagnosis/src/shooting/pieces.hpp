@@ -1,9 +1,9 @@
 #pragma once
 /// Pieces of the residual of one output that are linear in a missing force.
 ///
-/// Drives: equation error (docs/diagnosis_method.md, 2) between two standstills. The model gives the acceleration at
-/// the measured speed, command and swing. This acceleration is integrated twice; the start is projected out.
-/// The pieces contain no stick, slip or standstill.
+/// Drives: equation error (docs/diagnosis_method.md, 2) between two standstills. The model gives the
+/// acceleration at the measured speed, command and swing. This acceleration is integrated twice; the start is
+/// projected out. The pieces contain no stick, slip or standstill.
 ///
 /// Swing: windows of the load simulation. Without its free motion, the response of a pendulum is
 /// proportional to the force.
