@@ -10,6 +10,7 @@
 
 #include "commands/commands.hpp"
 #include "crane/configuration/rig.hpp"
+#include "crane/runtime/command_line.hpp"
 #include "crane/runtime/program_start.hpp"
 
 namespace {
@@ -100,6 +101,7 @@ int written(int exit_code) {
 
 int run(int argc, char** argv) {
   CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
+  runtime::refuse_values_of_flags(app);
   app.set_version_flag("--version", "crane " CRANE_VERSION);
   app.footer(kFooter);
   cli::Action chosen;
@@ -113,7 +115,7 @@ int run(int argc, char** argv) {
     log_to_standard_error();
     return chosen();
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
+    return runtime::exit_code_of(app, error);
   } catch (const configuration::ConfigurationError& error) {
     std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "crane/configuration/rig.hpp"
+#include "crane/runtime/command_line.hpp"
 #include "crane/runtime/program_start.hpp"
 #include "dashboard/request_queue.hpp"
 #include "dashboard/rig_text.hpp"
@@ -144,12 +145,13 @@ int main_of(int argc, char** argv) {
   CLI::App app{
       "Serves the dashboard of a crane: pages, live data for viewers, /api and /metrics on one port.",
       "crane_dashboard"};
+  runtime::refuse_values_of_flags(app);
   auto options = default_options();
   add_options(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
+    return runtime::exit_code_of(app, error);
   }
   try {
     return run(options);

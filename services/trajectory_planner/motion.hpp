@@ -61,6 +61,8 @@ class Motion {
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
   /// Whether every axis is within 10 mm or 10 mrad of the reference.
   [[nodiscard]] bool is_near(const control::Measurement& measured, std::uint64_t tick) const noexcept;
+  /// Tick at which the motion began.
+  [[nodiscard]] std::uint64_t start_tick() const noexcept { return start_tick_; }
   /// True when the reference has ended and the crane is at rest near it; at the latest 20 s after the end of
   /// the reference.
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;

@@ -227,7 +227,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     sample.move_number = move_number_;
     sample.second_writer = disputed();
     sample.configuration = configuration();
-    sample.moving = pending_ || waiting_ || !motion_.arrived(measured, tick);
+    if (motion_.arrived(measured, tick)) ended_motion_ = motion_.start_tick();
+    sample.moving = pending_ || waiting_ || ended_motion_ != motion_.start_tick();
     if (moving_ && !sample.moving && move_kind_ == crane_REQUEST_MOVE && follows_reference(supervisor_) &&
         !motion_.is_near(measured, tick))
       node().warning("target_not_reached", "the move has ended, but an axis is away from its target",
@@ -263,6 +264,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   Motion motion_;
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;
+  /// Tick at which the last completed motion began. A crane that leaves its target afterwards, by a push or
+  /// because its load swings, does not begin this motion again.
+  std::optional<std::uint64_t> ended_motion_;
   crane_SupervisorState supervisor_ = crane_STATE_BOOT;
   crane_OperatingMode mode_ = crane_MODE_SEMI_AUTOMATIC;
   std::array<double, control::kAxes> homing_speed_{}, deflection_{};

@@ -43,7 +43,8 @@ constexpr const char* kEnvelope =
     "the axis would not have stopped before its limit, or moved while its brake opened: check target and "
     "load";
 constexpr const char* kDemandJumps =
-    "the demand jumps, or does not match a crane at rest: check the controller and its reference";
+    "the demand jumps, or is too large for a crane at rest: wait until the load hangs still, then reset; if "
+    "this repeats, check the controller and its reference";
 constexpr const char* kFollowing =
     "the axis does not follow its voltage: check amplifier, encoder, brake and load, then reset";
 constexpr const char* kSwing = "wait until the load swings less, then reset";

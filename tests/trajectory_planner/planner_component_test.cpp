@@ -25,7 +25,9 @@ class PlannerComponent : public testing::Test {
     status.header = runtime::test::tick(tick_);
     status.state = state_;
     status.move = move_;
-    bench_.publish(topics::state, crane_SOURCE_PLANT, state_at(tick_));
+    auto state = state_at(tick_);
+    state.trolley_position_m += pushed_m_;
+    bench_.publish(topics::state, crane_SOURCE_PLANT, state);
     bench_.publish(topics::supervisor, crane_SOURCE_SUPERVISOR, status);
     bench_.step();
     return newest();
@@ -54,6 +56,7 @@ class PlannerComponent : public testing::Test {
   crane_SupervisorState state_ = crane_STATE_HOLD;
   msg::AcceptedMove move_{};
   std::uint64_t tick_ = 0;
+  double pushed_m_ = 0;  ///< change of the position of the trolley
 };
 
 TEST_F(PlannerComponent, PublishesTheReferenceOfTheNextTick) {
@@ -79,6 +82,20 @@ TEST_F(PlannerComponent, ExecutesANewMoveOnce) {
   EXPECT_EQ(tick().axis[0].position, 0.5) << "the reference of a locked crane is its position";
   state_ = crane_STATE_HOLD;
   EXPECT_EQ(tick().axis[0].position, 0.5) << "an old move is not executed again";
+}
+
+/// Otherwise the supervisor would change from HOLD to RUN without a move.
+TEST_F(PlannerComponent, DoesNotBeginACompletedMoveAgainWhenTheCraneIsPushedAway) {
+  (void)tick();
+  accept(1, 0.55);
+  EXPECT_TRUE(tick().moving);
+  pushed_m_ = 0.05;
+  for (int settling = 0; settling < 50; ++settling) (void)tick();  // the measured speed is filtered
+  EXPECT_FALSE(tick().moving);
+  pushed_m_ = 0.1;
+  for (int settling = 0; settling < 50; ++settling) EXPECT_FALSE(tick().moving);
+  accept(2, 0.5);
+  EXPECT_TRUE(tick().moving);
 }
 
 TEST_F(PlannerComponent, DoesNotExecuteAMoveThatItReceivesAfterAStop) {

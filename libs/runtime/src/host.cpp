@@ -8,6 +8,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "crane/runtime/command_line.hpp"
 #include "crane/runtime/node.hpp"
 #include "crane/runtime/program_start.hpp"
 #include "crane/runtime/signals.hpp"
@@ -50,12 +51,13 @@ int host(int argc, char** argv, const std::string& program, const std::string& s
          const std::function<int(const LoopOptions&)>& run) {
   start_program();
   CLI::App app{summary, program};
+  refuse_values_of_flags(app);
   LoopOptions options;
   add_loop_options(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+    return exit_code_of(app, error);
   }
   try {
     log_without_waiting();

@@ -8,6 +8,7 @@
 
 #include "crane/configuration/realtime_period.hpp"
 #include "crane/emulated_rig/rig_server.hpp"
+#include "crane/runtime/command_line.hpp"
 #include "crane/runtime/process.hpp"
 #include "crane/runtime/program_start.hpp"
 #include "crane/runtime/realtime_scheduling.hpp"
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
   CLI::App app{
       "A crane with an emulated Servo-to-Go card, for the hardware bridge of the same crane and domain.",
       "crane_emulated_rig"};
+  runtime::refuse_values_of_flags(app);
   Options options;
   app.add_option("--rig", options.rig, "rig file: the crane and its wiring")->required();
   app.add_option("--crane", options.crane, "name of the crane")->capture_default_str();
@@ -76,7 +78,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
+    return runtime::exit_code_of(app, error);
   }
   runtime::install_stop_signals();
   try {
