@@ -86,6 +86,30 @@ TEST(ForceOnLoad, OfASpringWithPlayIsUnknown) {
   EXPECT_THAT(found.remainder.from, Contains(HasSubstr("swing_radial_rad: force, swing"))) << found.sentence;
 }
 
+/// The cable touches an edge 5 cm below its suspension when the load swings to one side: a shorter pendulum.
+/// A shorter cable has the same mean period, and an offset of the sensor the same mean position; the form of
+/// the swing is another one.
+TEST(ForceOnLoad, OfAnEdgeThatTheCableTouchesOnOneSideIsUnknown) {
+  constexpr double kDuration_s = 20, kEdge_m = 0.05, kTouches_rad = 0.06;
+  const auto swing_from = [](double start_rad, std::uint64_t seed) {
+    const RandomForce wind(0.01, 0.5, seed, kDuration_s);
+    strange::Gantry crane;
+    crane.push_n = [&](const strange::Load& load) {
+      const double stiffness_n = crane.load_kg * crane.gravity_mps2 * kEdge_m / crane.cable_m;
+      return wind(load.time_s) + stiffness_n * std::max(0.0, load.swing_rad - kTouches_rad);
+    };
+    const auto truth = strange::moved(
+        crane, kDuration_s, [](double) { return 0.0; }, start_rad);
+    const auto table = strange::recorded(truth, {.swing_noise_rad = 3e-4, .seed = seed});
+    return load_run(table, gantry(), "swing.csv").runs.at(0);
+  };
+  Request request;
+  request.accuracy = kUsualAccuracy;
+  const Diagnosis found =
+      diagnose(gantry(), {swing_from(0.35, 1), swing_from(0.2, 2)}, {swing_from(0.3, 3)}, request);
+  EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
+}
+
 /// A hook that spins and slows down: the phase of the force differs from window to window.
 TEST(ForceOnLoad, OfASpinningHookIsUnknown) {
   const auto spinning = [](const strange::Load& load) {

@@ -34,20 +34,29 @@ MatrixXd shapes_in(std::size_t window, std::size_t rows, const SwingVariable& va
   return shapes;
 }
 
-/// Without the free motion of the load, which the start of a window explains.
-MatrixXd beside_free_motion(const MatrixXd& x, double radps, double period_s) {
-  MatrixXd free(x.rows(), 2);
-  for (Index k = 0; k < x.rows(); ++k) {
-    const double phase = radps * period_s * static_cast<double>(k);
-    free(k, 0) = std::cos(phase), free(k, 1) = std::sin(phase);
+/// The part of a change of the swing that neither the start of a window explains, nor errors of the scale of
+/// the swing or of the support, of the cable length and of the delay, which the accuracy of the rig file
+/// permits. @param swing  simulated, rad
+VectorXd beside_inaccuracies(const VectorXd& change, const VectorXd& swing, const WindowMotion& motion) {
+  MatrixXd permitted(change.rows(), 5);
+  for (Index k = 0; k < change.rows(); ++k) {
+    const double phase = motion.natural_radps * motion.period_s * static_cast<double>(k);
+    permitted(k, 0) = std::cos(phase), permitted(k, 1) = std::sin(phase);
   }
-  return x - free * free.householderQr().solve(x);
+  MatrixXd of_length = swing;
+  replace_by_pendulum_response(of_length, motion.natural_radps, motion.period_s);
+  permitted.col(2) = swing;
+  permitted.col(3) = of_length * (motion.natural_radps * motion.natural_radps);
+  permitted.col(4).setZero();
+  const Index last = change.rows() - 1;
+  if (last > 1) permitted.col(4).segment(1, last - 1) = swing.tail(last - 1) - swing.head(last - 1);
+  return change - permitted * permitted.colPivHouseholderQr().solve(change);
 }
 
 class PatternTests {
  public:
   PatternTests(const Problem& problem, const Fits& fits, std::size_t output)
-      : problem_(problem), output_(output), pieces_(pieces_of(problem, fits, output)) {}
+      : problem_(problem), fits_(fits), output_(output), pieces_(pieces_of(problem, fits, output)) {}
 
   [[nodiscard]] const Pieces& pieces() const { return pieces_; }
   [[nodiscard]] Index block_count() const {
@@ -108,8 +117,9 @@ class PatternTests {
     const VectorXd amplitudes = test.curvature.solve(score_of(test, VectorXd::Ones(block_count())));
     double squares = 0, count = 0;
     for (std::size_t w = 0; w < pieces_.all.size(); ++w) {
-      const WindowMotion& motion = problem_.motion(output_, w);
-      squares += beside_free_motion(response(test, w) * amplitudes, motion.natural_radps, motion.period_s)
+      const auto rows = static_cast<Index>(problem_.windows()[w].rows);
+      const VectorXd swing = fits_[w].simulated.segment(static_cast<Index>(output_) * rows, rows);
+      squares += beside_inaccuracies(response(test, w) * amplitudes, swing, problem_.motion(output_, w))
                      .squaredNorm();
       count += static_cast<double>(pieces_.all[w].rows);
     }
@@ -164,6 +174,7 @@ class PatternTests {
   }
 
   const Problem& problem_;
+  const Fits& fits_;
   std::size_t output_;
   Pieces pieces_;
 };

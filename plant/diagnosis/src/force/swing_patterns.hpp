@@ -15,7 +15,9 @@ struct SwingPattern {
   std::string name;  ///< "swing_radial_rad: force, position of the trolley"
   Output output = kRadialSwing;
   double fraction = 0;  ///< of the loss of the output
-  double rms_rad = 0;   ///< in windows, beside the free motion of the load
+  /// In windows, beside the free motion of the load; for a function of the motion also beside errors of
+  /// scales, cable length and delay.
+  double rms_rad = 0;
 };
 
 /// Patterns of one output, the largest gain first: a force on the load, or an error of the swing sensor, that

@@ -126,14 +126,16 @@ SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, doubl
       Problem(load.runs(), Part::load, window_s, data.study().natural_radps()).whitened_by(crane);
   const Fits fits = long_windows.fit(crane);
   for (std::size_t output = 0; output < load.outputs().size(); ++output) {
-    double largest_rad = permitted * rms_motion(load, output);
+    double beside_causes_rad = 0;
     for (const auto& change : best.change)
-      largest_rad = std::max(largest_rad, rules::kLeastBeside * change[load.outputs()[output]]);
-    std::vector<SwingPattern> found = find_swing_patterns(long_windows, fits, output, seed);
+      beside_causes_rad = std::max(beside_causes_rad, rules::kLeastBeside * change[load.outputs()[output]]);
+    const double visible_rad = std::max(beside_causes_rad, measured_noise(load, output));
+    for (SwingPattern& pattern : find_swing_patterns(long_windows, fits, output, seed))
+      if (pattern.rms_rad > visible_rad) left.patterns.push_back(std::move(pattern));
     if (!oscillates(data, best.effects))
-      if (auto band = find_narrow_band(load, best.train.load, output)) found.push_back(std::move(*band));
-    for (SwingPattern& pattern : found)
-      if (pattern.rms_rad > largest_rad) left.patterns.push_back(std::move(pattern));
+      if (auto band = find_narrow_band(load, best.train.load, output))
+        if (band->rms_rad > std::max(beside_causes_rad, permitted * rms_motion(load, output)))
+          left.patterns.push_back(std::move(*band));
     if (const auto force = find_short_force(long_windows, fits, output, permitted))
       left.forces.push_back(*force);
   }

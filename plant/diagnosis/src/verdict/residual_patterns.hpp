@@ -33,8 +33,9 @@ struct Pattern {
 
 /// Errors of the swing beside the best hypothesis that are not a random force.
 struct SwingResidual {
-  /// The largest first. The rms of each is larger than both permitted changes of the swing: the given share
-  /// of its rms motion in the windows, and kLeastBeside of the largest change by an effect of the hypothesis.
+  /// The largest first. The rms of each is larger than kLeastBeside of the largest change by an effect of the
+  /// hypothesis. The rms of a narrow band is also larger than the permitted share of the motion, that of
+  /// another pattern larger than the noise of the sensor.
   std::vector<SwingPattern> patterns;
   std::vector<ShortForce> forces;  ///< at most one per output, the largest first
 };
