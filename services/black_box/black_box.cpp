@@ -107,7 +107,7 @@ std::filesystem::path default_directory() {
 Options default_options() {
   Options options;
   options.directory = default_directory();
-  options.bus.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
+  options.bus.vendor = "fastdds";  // as for all tools, so that every run uses both vendors
   return options;
 }
 

@@ -9,7 +9,7 @@
 
 namespace crane::cli {
 
-/// Default bus options of a tool: Fast DDS, so that ordinary use exercises both vendors together.
+/// Default bus options of a tool: Fast DDS, so that every run uses both vendors.
 [[nodiscard]] inline runtime::BusOptions tool_bus() {
   runtime::BusOptions options;
   options.vendor = "fastdds";

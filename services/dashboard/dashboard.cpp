@@ -50,7 +50,7 @@ std::unique_ptr<Server> open_server(const Options& options, About about, AccessR
 
 Options default_options() {
   Options options;
-  options.bus.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
+  options.bus.vendor = "fastdds";  // as for all tools, so that every run uses both vendors
   return options;
 }
 

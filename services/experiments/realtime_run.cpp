@@ -175,7 +175,7 @@ RealtimeRun RealtimeRuns::run_from_start(const std::filesystem::path& rig_file, 
   if (real) stack::launch_rig(children, rig, launch_options);
   stack::launch(children, specs, launch_options);
   auto observer = launch_options.bus;
-  observer.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
+  observer.vendor = "fastdds";  // as for all tools, so that every run uses both vendors
   bus::Bus bus{runtime::bus_options(observer, "crane_run", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
   if (real) require_sole_use();

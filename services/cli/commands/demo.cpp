@@ -120,7 +120,7 @@ int demo(DemoOptions options) {
   std::cerr << "starting " << specs.size() << " processes\n";
   stack::launch(children, specs, options.launch);
   auto observer = options.launch.bus;
-  observer.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
+  observer.vendor = "fastdds";  // as for all tools, so that every run uses both vendors
   bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, stack::kLongestStart);
   if (options.dashboard)

@@ -44,7 +44,7 @@ struct UpOptions {
   std::filesystem::path dashboard_runs;  ///< empty: the directory of the black box
 };
 
-/// The recorder runs on Fast DDS, so that ordinary use tests both vendors together.
+/// The recorder runs on Fast DDS, so that every run uses both vendors.
 void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   auto bus = options.launch.bus;
   bus.vendor = "fastdds";

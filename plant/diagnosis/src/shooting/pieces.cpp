@@ -93,8 +93,8 @@ VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::si
   return distance;
 }
 
-/// Residual of a piece in units of the sensor value, because a scale of the sensor must not reduce the
-/// residual. 0 in missing rows.
+/// Residual of a piece in units of the sensor value: in other units, a fitted scale of the sensor could
+/// reduce it. 0 in missing rows.
 VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive, Output axis,
                         std::size_t first, std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);

@@ -61,8 +61,8 @@ class Builder {
 
   void add_axis(const std::string& axis, Output output, double scale) {
     const KnownFriction known = known_friction(rig_, axis);
-    // If the model sticks where the axis moved, or moves where the axis stuck, a small change of force or
-    // friction has no effect. Larger probes are needed.
+    // Where only one of model and axis sticks, a small change of force or friction has no effect: large
+    // probes.
     const double c = known.least_coulomb_v;
     std::vector<std::vector<double>> levels, sides, offsets, gains, inertias, excesses;
     if (c > 0) {

@@ -32,8 +32,8 @@ struct ZoneMemory {
   PerAxis applied_v{}, previous_applied_v{};
   /// true: the previous tick was filtered (brakes commanded open, no homing)
   bool watching = false;
-  /// m, least permitted clearance of each zone of the limits. Usually 0; negative while a load that is inside
-  /// the margin of this zone leaves the zone
+  /// m, smallest permitted clearance of each zone of the limits: 0; negative for a zone whose margin the load
+  /// is leaving
   std::array<double, control::kMostZones> permitted_m{};
 };
 

@@ -24,8 +24,8 @@ struct FreeParameter {
 struct Shape {
   std::vector<plant::TermSetting> probes;
   std::vector<double> amounts;
-  bool large_probe = false;  ///< true: one large probe, which is judged by its own gain and is also an
-                             ///< initial value of the fit
+  bool large_probe = false;  ///< true: one large probe; its gain is the score, and the fit starts
+                             ///< from its values
 };
 
 /// Variable that a force on an axis depends on.
