@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/commands/log.hpp"
 #include "cli/number_range.hpp"
 #include "cli/player.hpp"
 #include "cli/recording_argument.hpp"
@@ -89,7 +90,7 @@ int play(const PlayOptions& options) {
   std::cout << counts.played << " samples played";
   if (counts.failed > 0) std::cout << ", " << counts.failed << " damaged or not sent";
   std::cout << '\n';
-  for (const auto& problem : recording.problems()) std::cerr << problem << '\n';
+  print_log_problems(recording.problems());
   if (!player.other_writer()) return runtime::kExitDone;
   std::cerr << "crane play: another program writes " << *player.other_writer()
             << ": stopped; a recording is played only on a bus without a crane\n";

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/commands/log.hpp"
 #include "cli/output_file.hpp"
 #include "cli/recording_argument.hpp"
 #include "cli/text_table.hpp"
@@ -28,10 +29,6 @@ struct ReplayOptions {
   std::vector<std::string> vendors;
   std::uint32_t domain = 0;
 };
-
-void print_problems(const std::vector<std::string>& problems) {
-  for (const auto& problem : problems) std::cerr << problem << '\n';
-}
 
 nlohmann::ordered_json to_json(const replay::Result& found) {
   nlohmann::ordered_json json{
@@ -65,7 +62,7 @@ replay::Result result_of(const ReplayOptions& options) {
 
 /// Prints the samples and ticks that the replay did not compare, and the reasons.
 void print_remarks(const replay::Result& found) {
-  print_problems(found.problems);
+  print_log_problems(found.problems);
   if (!found.problems.empty())
     std::cerr << "the recording is damaged: the replay ends after tick " << found.equal_ticks - 1 << '\n';
   if (!found.ends.empty()) std::cerr << "the replay ends before " << found.ends << '\n';
@@ -157,7 +154,7 @@ int swap(const ReplayOptions& options) {
     print(found);
     std::cout << "demands of every tick: " << out.string() << '\n';
   }
-  print_problems(found.problems);
+  print_log_problems(found.problems);
   return runtime::kExitDone;
 }
 

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/commands/log.hpp"
 #include "cli/number_range.hpp"
 #include "cli/snapshot.hpp"
 #include "cli/tool_bus.hpp"
@@ -43,6 +44,9 @@ Snapshot last_of(const std::string& file) {
                     return true;
                   });
   if (!snapshot.supervisor) throw std::runtime_error(file + ": contains no crane/supervisor");
+  print_log_problems(reader.problems());
+  if (!reader.problems().empty()) std::cerr << "the recording is damaged: a later state may be missing\n";
+  std::cout << "tick " << snapshot.supervisor->header.tick << '\n';
   return snapshot;
 }
 
