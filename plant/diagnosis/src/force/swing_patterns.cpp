@@ -34,23 +34,33 @@ MatrixXd shapes_in(std::size_t window, std::size_t rows, const SwingVariable& va
   return shapes;
 }
 
-/// The part of a change of the swing that neither the start of a window explains, nor errors of the scale of
-/// the swing or of the support, of the cable length and of the delay, which the accuracy of the rig file
-/// permits. @param swing  simulated, rad
-VectorXd beside_inaccuracies(const VectorXd& change, const VectorXd& swing, const WindowMotion& motion) {
-  MatrixXd permitted(change.rows(), 5);
-  for (Index k = 0; k < change.rows(); ++k) {
+/// Free motion of the load, which the start of a window explains.
+MatrixXd free_motion(Index rows, const WindowMotion& motion) {
+  MatrixXd free(rows, 2);
+  for (Index k = 0; k < rows; ++k) {
     const double phase = motion.natural_radps * motion.period_s * static_cast<double>(k);
-    permitted(k, 0) = std::cos(phase), permitted(k, 1) = std::sin(phase);
+    free(k, 0) = std::cos(phase), free(k, 1) = std::sin(phase);
   }
+  return free;
+}
+
+/// Free motion, and changes of a simulated swing by errors within the accuracy of the rig file: of the scale
+/// of the swing or of the support, of the cable length and of the delay.
+MatrixXd inaccurate_motion(const VectorXd& swing, const WindowMotion& motion) {
   MatrixXd of_length = swing;
   replace_by_pendulum_response(of_length, motion.natural_radps, motion.period_s);
-  permitted.col(2) = swing;
-  permitted.col(3) = of_length * (motion.natural_radps * motion.natural_radps);
-  permitted.col(4).setZero();
-  const Index last = change.rows() - 1;
-  if (last > 1) permitted.col(4).segment(1, last - 1) = swing.tail(last - 1) - swing.head(last - 1);
-  return change - permitted * permitted.colPivHouseholderQr().solve(change);
+  VectorXd of_delay = VectorXd::Zero(swing.size());
+  if (const Index inner = swing.size() - 2; inner > 0)
+    of_delay.segment(1, inner) = swing.tail(inner) - swing.head(inner);
+  MatrixXd all(swing.size(), 5);
+  all << free_motion(swing.size(), motion), swing, of_length * (motion.natural_radps * motion.natural_radps),
+      of_delay;
+  return all;
+}
+
+/// The part of `change` that no combination of the columns explains.
+VectorXd beside(const MatrixXd& columns, const VectorXd& change) {
+  return change - columns * columns.colPivHouseholderQr().solve(change);
 }
 
 class PatternTests {
@@ -118,9 +128,11 @@ class PatternTests {
     double squares = 0, count = 0;
     for (std::size_t w = 0; w < pieces_.all.size(); ++w) {
       const auto rows = static_cast<Index>(problem_.windows()[w].rows);
+      const WindowMotion& motion = problem_.motion(output_, w);
       const VectorXd swing = fits_[w].simulated.segment(static_cast<Index>(output_) * rows, rows);
-      squares += beside_inaccuracies(response(test, w) * amplitudes, swing, problem_.motion(output_, w))
-                     .squaredNorm();
+      const MatrixXd permitted =
+          test.variable.of_own_swing ? inaccurate_motion(swing, motion) : free_motion(rows, motion);
+      squares += beside(permitted, response(test, w) * amplitudes).squaredNorm();
       count += static_cast<double>(pieces_.all[w].rows);
     }
     return std::sqrt(squares / count);
@@ -201,7 +213,8 @@ std::vector<SwingPattern> find_swing_patterns(const Problem& problem, const Fits
   for (const auto& test : tests) {
     const double gain = patterns.gain(*test, VectorXd::Ones(blocks));
     if (gain <= std::max(by_luck, double{rules::kPatternLuck})) continue;
-    found.push_back({test->variable.name, problem.outputs()[output], gain / loss, patterns.rms(*test)});
+    found.push_back({test->variable.name, problem.outputs()[output], gain / loss, patterns.rms(*test),
+                     test->variable.of_own_swing});
   }
   std::ranges::sort(found,
                     [](const SwingPattern& a, const SwingPattern& b) { return a.fraction > b.fraction; });

@@ -15,9 +15,10 @@ struct SwingPattern {
   std::string name;  ///< "swing_radial_rad: force, position of the trolley"
   Output output = kRadialSwing;
   double fraction = 0;  ///< of the loss of the output
-  /// In windows, beside the free motion of the load; for a function of the motion also beside errors of
-  /// scales, cable length and delay.
-  double rms_rad = 0;
+  double rms_rad = 0;   ///< in windows, beside the free motion of the load
+  /// True for a function of the swing or of its rate: `rms_rad` is also beside errors of scales, cable length
+  /// and delay.
+  bool of_own_swing = false;
 };
 
 /// Patterns of one output, the largest gain first: a force on the load, or an error of the swing sensor, that

@@ -78,10 +78,12 @@ std::vector<SwingVariable> swing_variables_of(const Problem& problem, const Fits
     const auto add = [&](const std::string& of, std::size_t bins, const WindowSignal& value,
                          const WindowSignal& factor) {
       all.push_back({std::string{kOutputNames[output]} + (sensor ? ": sensor, " : ": force, ") + of, sensor,
-                     bins, value, factor});
+                     bins, value, factor, false});
     };
-    add("swing", kSizes, swing, one);
-    add("rate of the swing", kSizes, swing_rate, one);
+    for (const bool rate : {false, true}) {
+      add(rate ? "rate of the swing" : "swing", kSizes, rate ? swing_rate : swing, one);
+      all.back().of_own_swing = true;
+    }
     add("time", kTimes, time, one);
     add("swing over time", kTimes, time, swing);
     add("rate of the swing over time", kTimes, time, swing_rate);

@@ -16,6 +16,7 @@ struct SwingVariable {
   bool of_sensor = false;  ///< the pattern adds to the measured swing, else to the force on the load
   std::size_t bins = 1;
   WindowSignal value, factor;
+  bool of_own_swing = false;  ///< swing of this output, or its rate
 };
 
 /// Variables of one output: swing, rate of the swing, time, position and speed of the drives, other swing;

@@ -129,13 +129,14 @@ SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, doubl
     double beside_causes_rad = 0;
     for (const auto& change : best.change)
       beside_causes_rad = std::max(beside_causes_rad, rules::kLeastBeside * change[load.outputs()[output]]);
-    const double visible_rad = std::max(beside_causes_rad, measured_noise(load, output));
-    for (SwingPattern& pattern : find_swing_patterns(long_windows, fits, output, seed))
-      if (pattern.rms_rad > visible_rad) left.patterns.push_back(std::move(pattern));
+    const double permitted_rad = permitted * rms_motion(load, output),
+                 noise_rad = measured_noise(load, output);
+    std::vector<SwingPattern> found = find_swing_patterns(long_windows, fits, output, seed);
     if (!oscillates(data, best.effects))
-      if (auto band = find_narrow_band(load, best.train.load, output))
-        if (band->rms_rad > std::max(beside_causes_rad, permitted * rms_motion(load, output)))
-          left.patterns.push_back(std::move(*band));
+      if (auto band = find_narrow_band(load, best.train.load, output)) found.push_back(std::move(*band));
+    for (SwingPattern& pattern : found)
+      if (pattern.rms_rad > std::max(beside_causes_rad, pattern.of_own_swing ? noise_rad : permitted_rad))
+        left.patterns.push_back(std::move(pattern));
     if (const auto force = find_short_force(long_windows, fits, output, permitted))
       left.forces.push_back(*force);
   }

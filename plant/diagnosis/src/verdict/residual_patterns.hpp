@@ -34,8 +34,8 @@ struct Pattern {
 /// Errors of the swing beside the best hypothesis that are not a random force.
 struct SwingResidual {
   /// The largest first. The rms of each is larger than kLeastBeside of the largest change by an effect of the
-  /// hypothesis. The rms of a narrow band is also larger than the permitted share of the motion, that of
-  /// another pattern larger than the noise of the sensor.
+  /// hypothesis. It is also larger than the noise of the sensor for a function of the swing or its rate, than
+  /// the permitted share of the motion for another pattern.
   std::vector<SwingPattern> patterns;
   std::vector<ShortForce> forces;  ///< at most one per output, the largest first
 };
