@@ -140,7 +140,7 @@ struct Studied {
   explicit Studied(std::uint64_t seed, const Push& push = {})
       : train{prepare(pushed(2 * seed, push), rig), prepare(pushed(2 * seed + 1, {}), rig)} {}
   [[nodiscard]] SwingResidual left(std::uint64_t seed) const {
-    return swing_residual(data, base_fit(data), 2 * kUsualAccuracy.values, seed);
+    return swing_residual(data, base_fit(data), false, 2 * kUsualAccuracy.values, seed);
   }
   configuration::Rig rig = gantry();
   Runs train, test;

@@ -106,7 +106,8 @@ class Judgement {
       remainder.from.push_back(lacking);
       return true;
     }
-    const auto [patterns, forces] = swing_residual(data_, best_, accuracy_.permitted_share_of_swing(), seed_);
+    const auto [patterns, forces] =
+        swing_residual(data_, best_, !causes_.empty(), accuracy_.permitted_share_of_swing(), seed_);
     for (std::size_t i = 0; i < std::min<std::size_t>(3, patterns.size()); ++i)
       remainder.from.push_back(described(patterns[i]));
     if (!patterns.empty()) {

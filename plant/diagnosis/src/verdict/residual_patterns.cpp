@@ -114,8 +114,8 @@ std::vector<Pattern> residual_patterns(const WhitenedData& data, const Hypothese
   return left;
 }
 
-SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, double permitted,
-                             std::uint64_t seed) {
+SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, bool names_a_cause,
+                             double permitted, std::uint64_t seed) {
   SwingResidual left;
   const Problem& load = data.load();
   if (load.empty()) return left;
@@ -135,7 +135,8 @@ SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, doubl
     if (!oscillates(data, best.effects))
       if (auto band = find_narrow_band(load, best.train.load, output)) found.push_back(std::move(*band));
     for (SwingPattern& pattern : found)
-      if (pattern.rms_rad > std::max(beside_causes_rad, pattern.of_own_swing ? noise_rad : permitted_rad))
+      if (pattern.rms_rad >
+          std::max(beside_causes_rad, names_a_cause && pattern.of_own_swing ? noise_rad : permitted_rad))
         left.patterns.push_back(std::move(pattern));
     if (const auto force = find_short_force(long_windows, fits, output, permitted))
       left.forces.push_back(*force);

@@ -34,14 +34,16 @@ struct Pattern {
 /// Errors of the swing beside the best hypothesis that are not a random force.
 struct SwingResidual {
   /// The largest first. The rms of each is larger than kLeastBeside of the largest change by an effect of the
-  /// hypothesis. It is also larger than the noise of the sensor for a function of the swing or its rate, than
-  /// the permitted share of the motion for another pattern.
+  /// hypothesis. It is also larger than the permitted share of the motion. Beside a cause, a function of the
+  /// swing or of its rate need only be larger than the noise of the sensor: the accuracy of the rig file does
+  /// not explain its form, and the cause may be an attempt to describe it.
   std::vector<SwingPattern> patterns;
   std::vector<ShortForce> forces;  ///< at most one per output, the largest first
 };
 
+/// @param names_a_cause  true: an effect of the hypothesis is beyond the accuracy of the rig file
 /// @param permitted share of the motion, > 0: accuracy of the rig file
-[[nodiscard]] SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, double permitted,
-                                           std::uint64_t seed);
+[[nodiscard]] SwingResidual swing_residual(const WhitenedData& data, const Fitted& best, bool names_a_cause,
+                                           double permitted, std::uint64_t seed);
 
 }  // namespace crane::diagnosis
