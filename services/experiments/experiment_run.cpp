@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/bridge/component.hpp"
+#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/configuration/extended_file.hpp"
 #include "crane/configuration/output_files.hpp"
 #include "crane/experiment/picture.hpp"
@@ -130,6 +131,7 @@ nlohmann::ordered_json to_json(const ExperimentResult& result) {
 
 ExperimentResult run_experiment(const ExperimentOptions& options) {
   const auto rig = configuration::load_rig(options.rig);
+  configuration::require_resolved_speeds(rig);
   if (options.plant == stack::Plant::hardware) require_rehearsal(rig);
   const auto& controller = runtime::chosen_controller(options.controller, rig);
   const auto scenario = experiment::load_scenario(options.scenario, &rig);

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/configuration/realtime_period.hpp"
 #include "crane/runtime/loop_process.hpp"
 #include "crane/twin/component.hpp"
@@ -33,6 +34,7 @@ void start(ChildProcesses& children, std::string_view name, std::string_view pro
 /// Refuses a rig before any process starts. Each process would refuse it by itself.
 void require_possible(const configuration::Rig& rig, const LaunchOptions& options) {
   if (options.clock == "realtime") configuration::require_realtime_period(rig);
+  configuration::require_resolved_speeds(rig);
 }
 
 }  // namespace

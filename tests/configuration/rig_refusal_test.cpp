@@ -1,10 +1,10 @@
 // Rig files with problems: all problems are reported at once, each with its line.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 
+#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/configuration/realtime_period.hpp"
 #include "rig_text.hpp"
 
@@ -69,21 +69,18 @@ TEST(RigFile, RefusesAnEncoderThatIsTooCoarseForTheBrakeOrTooFineForItsCounter) 
       .change("[encoder.slew]", "counts_per_rad = 57295.77951308232", "counts_per_rad = 1e9");
   const auto problems = problems_of(tower.text());
   ASSERT_EQ(problems.size(), 2U);
-  EXPECT_THAT(problems[0],
-              testing::AllOf(testing::StartsWith(tower.line("[encoder.trolley]", "counts_per_m") +
-                                                 "encoder.trolley.counts_per_m = 1: must be at least 666.66"),
-                             testing::HasSubstr("one count must not exceed the permitted slip of the closed "
-                                                "brake, 0.02 m, and not a tenth of the distance")));
+  EXPECT_EQ(problems[0], tower.line("[encoder.trolley]", "counts_per_m") +
+                             "encoder.trolley.counts_per_m = 1: must be at least 50: one count must not "
+                             "exceed the permitted slip of the closed brake, 0.02 m");
   EXPECT_THAT(problems[1],
               testing::AllOf(testing::StartsWith(tower.line("[encoder.slew]", "counts_per_rad")),
                              testing::HasSubstr("must be below"), testing::HasSubstr("2^23 counts")));
 }
 
 /// The bounds themselves: the coarsest accepted encoder, and the finest at the largest speed of the trolley.
-TEST(RigFile, AcceptsEncodersUpToTheBoundsOfBrakeSpeedAndCounter) {
+TEST(RigFile, AcceptsEncodersUpToTheBoundsOfBrakeAndCounter) {
   const auto rig = parse_rig(tower_text(), "rig.toml");
   const auto& trolley = rig.drives[plant::kTrolley];
-  const double coarsest_m = std::min(trolley.brake_slip, trolley.max_speed * rig.period_s / 10);
   const double most = (1 << 23) / (trolley.max_speed * rig.period_s);
   const auto problems_with = [](double counts_per_m) {
     ChangedTower tower;
@@ -91,10 +88,29 @@ TEST(RigFile, AcceptsEncodersUpToTheBoundsOfBrakeSpeedAndCounter) {
                  "counts_per_m = " + std::to_string(counts_per_m));
     return problems_of(tower.text());
   };
-  EXPECT_THAT(problems_with(1.01 / coarsest_m), IsEmpty());
-  EXPECT_THAT(problems_with(0.99 / coarsest_m), testing::SizeIs(1));
+  EXPECT_THAT(problems_with(1 / trolley.brake_slip), IsEmpty());
+  EXPECT_THAT(problems_with(0.99 / trolley.brake_slip), testing::SizeIs(1));
   EXPECT_THAT(problems_with(0.99 * most), IsEmpty());
   EXPECT_THAT(problems_with(1.01 * most), testing::SizeIs(1));
+}
+
+TEST(RigFile, OfAControlLoopIsRefusedIfAnEncoderHidesTheSpeedOfItsAxis) {
+  auto rig = parse_rig(tower_text(), "rig.toml");
+  const auto bound = [&](std::size_t axis) { return 10 / (rig.drives[axis].max_speed * rig.period_s); };
+  for (const auto axis : {plant::kTrolley, plant::kSlew})
+    rig.encoders[axis].counts_per_unit = 1.01 * bound(axis);
+  EXPECT_NO_THROW(require_resolved_speeds(rig));
+  for (const auto axis : {plant::kTrolley, plant::kSlew})
+    rig.encoders[axis].counts_per_unit = 0.99 * bound(axis);
+  try {
+    require_resolved_speeds(rig);
+    FAIL() << "accepted";
+  } catch (const ConfigurationError& error) {
+    EXPECT_THAT(error.problems(),
+                ElementsAre(testing::StartsWith("rig.toml: encoder.trolley.counts_per_m = 660: "
+                                                "must be at least 666.66"),
+                            testing::StartsWith("rig.toml: encoder.slew.counts_per_rad = ")));
+  }
 }
 
 TEST(RigFile, RefusesInRealTimeAPeriodBelowOneMillisecond) {

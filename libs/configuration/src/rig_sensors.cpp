@@ -1,6 +1,3 @@
-#include <algorithm>
-
-#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/fields/shortest.hpp"
 #include "rig_sections.hpp"
 
@@ -23,17 +20,16 @@ Measurable measurable(const Rig& rig, std::size_t coordinate) {
   return {tower || rig.kind == RigKind::pendulum, tower};
 }
 
-/// The bridge extends a 24-bit counter by the change of its reading in one tick.
+/// The supervisor and the bridge detect the slip of a closed brake by a change of the position, and the
+/// bridge extends a 24-bit counter by the change of its reading in one tick.
 void check_resolution(TomlTable& table, const plant::Coordinate& coordinate, const Encoder& encoder,
                       const Drive& drive, double period_s) {
   if (!(encoder.counts_per_unit > 0)) return;  // reported already
   const auto key = key_in(kEncoderFields, "counts_per", coordinate);
-  if (const double least = least_counts_per_unit(drive, period_s); encoder.counts_per_unit < least)
-    table.problem(key,
-                  "must be at least " + fields::shortest(least) +
-                      ": one count must not exceed the permitted slip of the closed brake, " +
-                      fields::shortest(drive.brake_slip) + " " + coordinate.unit +
-                      ", and not a tenth of the distance that the axis travels at max_speed in one period");
+  if (const double least = 1 / drive.brake_slip; encoder.counts_per_unit < least)
+    table.problem(key, "must be at least " + fields::shortest(least) +
+                           ": one count must not exceed the permitted slip of the closed brake, " +
+                           fields::shortest(drive.brake_slip) + " " + coordinate.unit);
   if (const double most = kHalfCounterRange_counts / (drive.max_speed * period_s);
       encoder.counts_per_unit >= most)
     table.problem(key, "must be below " + fields::shortest(most) +
@@ -42,11 +38,6 @@ void check_resolution(TomlTable& table, const plant::Coordinate& coordinate, con
 }
 
 }  // namespace
-
-double least_counts_per_unit(const Drive& drive, double period_s) noexcept {
-  const double coarsest_step = (kBridgeSpeedMargin - 1) * drive.max_speed * period_s;
-  return std::max(1 / drive.brake_slip, 1 / coarsest_step);
-}
 
 void read_encoders(TomlTable& root, Rig& rig) {
   TomlTable encoders = root.required_table("encoder");

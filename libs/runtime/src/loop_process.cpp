@@ -1,6 +1,7 @@
 #include "crane/runtime/loop_process.hpp"
 
 #include "crane/bus/ledger.hpp"
+#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/configuration/realtime_period.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "crane/runtime/memory_limit.hpp"
@@ -32,6 +33,7 @@ int run_loop(const std::vector<ComponentSpec>& specs, const LoopOptions& options
   require_possible(options);
   const auto rig = configuration::load_rig(options.rig);
   configuration::require_realtime_period(rig);
+  configuration::require_resolved_speeds(rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto new_epoch = [&] { return options.epoch != 0 ? options.epoch : random_epoch(); };
   auto joining = bus_options(options.bus, std::string{kLoopProgram}, specs.front().source, new_epoch());

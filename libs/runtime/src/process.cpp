@@ -8,6 +8,7 @@
 
 #include "crane/bus/ledger.hpp"
 #include "crane/bus/path_stamps.hpp"
+#include "crane/configuration/encoder_resolution.hpp"
 #include "crane/configuration/realtime_period.hpp"
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/memory_limit.hpp"
@@ -56,6 +57,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = clock_from(options.clock);
   if (clock == Clock::realtime) configuration::require_realtime_period(rig);
+  configuration::require_resolved_speeds(rig);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::stamp_paths_if_asked();
   Turn turn{monotonic_ns};  // outlives the bus, whose threads call it

@@ -1,5 +1,5 @@
 #pragma once
-/// Coarsest encoder of a drive with which supervisor and bridge can check its motion.
+/// Coarsest encoders with which supervisor and bridge can check the speed of a drive.
 #include "crane/configuration/rig.hpp"
 
 namespace crane::configuration {
@@ -8,9 +8,13 @@ namespace crane::configuration {
 /// factor. Below max_speed, the supervisor reacts first.
 inline constexpr double kBridgeSpeedMargin = 1.1;
 
-/// Counts per m or rad with which neither the slip of a closed brake nor a speed of max_speed is hidden by
-/// one count: one count is at most `brake_slip`, and at most the difference of both speed limits times a
-/// period.
+/// Counts per m or rad with which one count hides neither the slip of a closed brake nor a speed between the
+/// limits of supervisor and bridge.
 [[nodiscard]] double least_counts_per_unit(const Drive& drive, double period_s) noexcept;
+
+/// Call before a control loop runs the rig. A rig file that only describes measured data may have coarser
+/// sensors.
+/// @throws ConfigurationError with file, key, value and rule of each drive with fewer counts
+void require_resolved_speeds(const Rig& rig);
 
 }  // namespace crane::configuration
