@@ -19,7 +19,9 @@ namespace {
 using recording::contents_of;
 using recording::put_contents;
 using system_test::Ended;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 Ended crane(const std::vector<std::string>& arguments) {
   return system_test::run_program(stack::program_directory() / "crane", arguments);
@@ -180,6 +182,20 @@ TEST_F(RecordingCommands, LearnNoZoneFromARecordingWithAGap) {
 }
 
 /// An earlier version wrote to FILE.partial.
+TEST_F(RecordingCommands, ExplainsTheLastStateWithItsTickAndTheDamageOfTheRecording) {
+  const auto last = "tick " + std::to_string(std::stoi(ticks_) - 1) + '\n';
+  const auto intact = crane({"supervisor", "explain", "--state", run_});
+  EXPECT_EQ(intact.exit_code, 0);
+  EXPECT_THAT(intact.output, AllOf(StartsWith(last + "RUN\n"), HasSubstr("reset: refused")));
+  EXPECT_EQ(intact.errors, "");
+  const auto text = contents_of(run_);
+  put_contents(path("cut.mcap"), text.substr(0, text.size() / 3));
+  const auto cut = crane({"supervisor", "explain", "--state", path("cut.mcap")});
+  EXPECT_EQ(cut.exit_code, 0) << cut.errors;
+  EXPECT_THAT(cut.output, StartsWith("tick "));
+  EXPECT_THAT(cut.errors, HasSubstr("the recording is damaged: a later state may be missing"));
+}
+
 TEST_F(RecordingCommands, LeaveFilesBesideTheirResultUnchanged) {
   const auto before = contents_of(run_);
   std::filesystem::rename(run_, path("a.mcap.partial"));
