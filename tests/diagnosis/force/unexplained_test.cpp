@@ -254,6 +254,18 @@ TEST(Unexplained, BrakeThatGripsIntermittentlyIsAJumpOfTheSpeed) {
   EXPECT_THAT(left.jumps->variable, testing::StartsWith("trolley: jumps of the speed"));
 }
 
+/// A slow force that the noise model does not contain.
+TEST(Unexplained, SlowForceIsNoJump) {
+  const auto slow = [](double t, double, double) { return 0.05 * std::sin(0.2 * t); };
+  const configuration::Rig rig = axis_with_viscous_friction();
+  const Runs usual{moved(rig, 30, 1, nothing, {.disturbance_v = 0})},
+      pushed{moved(rig, 30, 1, slow, {.disturbance_v = 0})};
+  const Crane crane{rig.plant, rig.terms};
+  const Pieces of_usual = pieces_of(usual, replays_of(usual, crane), kTrolleyPosition);
+  EXPECT_FALSE(
+      find_jumps(pieces_of(pushed, replays_of(pushed, crane), kTrolleyPosition, of_usual.disturbance)));
+}
+
 TEST(Unexplained, EncoderThatLosesCountsIsAJumpOfThePosition) {
   const configuration::Rig rig = axis_with_viscous_friction();
   Runs runs;

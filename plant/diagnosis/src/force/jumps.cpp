@@ -18,6 +18,26 @@ using Eigen::VectorXd;
 /// Rows at the ends of a piece, where a jump resembles another start.
 constexpr std::size_t kJumpMargin_rows = 5;
 
+/// Whitens columns and removes the part that the start of the piece explains.
+void apply_piece(const Piece& piece, MatrixXd& columns) {
+  piece.whitener.apply(columns);
+  columns -= piece.basis * (piece.basis.transpose() * columns).eval();
+}
+
+/// Orthonormal basis of the residuals that an error of the acceleration causes which is linear in time. A
+/// friction that differs from the model at low speed causes such an error, and a change of speed would
+/// describe it better than no change.
+MatrixXd smooth_errors(const Piece& piece, const Run& run) {
+  const auto rows = static_cast<Index>(piece.rows);
+  MatrixXd powers(rows, 2);
+  for (Index k = 0; k < rows; ++k) {
+    const double t = run.instant_s(piece.first + static_cast<std::size_t>(k)) - run.instant_s(piece.first);
+    powers(k, 0) = t * t, powers(k, 1) = t * t * t;
+  }
+  apply_piece(piece, powers);
+  return powers.householderQr().householderQ() * MatrixXd::Identity(rows, 2);
+}
+
 /// One column per row at which the position, or the speed, may jump.
 MatrixXd jumps_in(const Piece& piece, const Run& run, bool of_speed) {
   const auto rows = static_cast<Index>(piece.rows), margin = static_cast<Index>(kJumpMargin_rows);
@@ -28,14 +48,15 @@ MatrixXd jumps_in(const Piece& piece, const Run& run, bool of_speed) {
   for (Index j = 0; j < all.cols(); ++j)
     for (Index k = j + margin; k < rows; ++k)
       all(k, j) = of_speed ? instant_s(k) - instant_s(j + margin - 1) : 1.0;
-  piece.whitener.apply(all);
-  all -= piece.basis * (piece.basis.transpose() * all).eval();
+  apply_piece(piece, all);
   return all;
 }
 
 double strongest_jump(const Piece& piece, const Run& run, bool of_speed) {
-  const MatrixXd all = jumps_in(piece, run, of_speed);
+  MatrixXd all = jumps_in(piece, run, of_speed);
   if (all.cols() == 0) return 0;
+  const MatrixXd smooth = smooth_errors(piece, run);
+  all -= smooth * (smooth.transpose() * all).eval();
   const VectorXd score = all.transpose() * piece.residual, hessian = all.colwise().squaredNorm();
   return (score.cwiseAbs2().array() / hessian.array().max(1e-12)).maxCoeff();
 }
